@@ -1,0 +1,1 @@
+"""The paper's task: a Franka Panda packs four boxes into a basket on a table."""

@@ -1,0 +1,209 @@
+"""From the names that a user gives to a run that is ready to start."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import TracebackType
+from typing import Any
+
+from llm3.errors import MissingCapability, UnknownName, UsageError
+from llm3.interfaces import (
+    BackendSettings,
+    Domain,
+    Env,
+    FeedbackSynthesizer,
+    LLMBackend,
+    MotionPlanner,
+    Options,
+    Strategy,
+)
+from llm3.prompts import Prompt
+from llm3.registry import Registry
+from llm3.solve import Budget, solve
+from llm3.types import FrozenDict, Observer, Result, Sketch, nobody
+
+
+@dataclass(frozen=True)
+class RunConfig:
+    """What a user asks for, JSON-safe; every default is the command line's."""
+
+    domain: str
+    setting: str | None = None
+    """None: the domain's default setting."""
+    seed: int = 0
+    strategy: str = "backtrack"
+    feedback: str = "categorized"
+    llm: str | None = None
+    """A backend, with an argument after a colon where it takes one. None: ``http`` with a model, else ``offline``."""
+    model: str | None = None
+    temperature: float | None = None
+    planner: str = "birrt"
+    max_llm_calls: int = 20
+    trace_size: int = 5
+    options: Mapping[str, str] = field(default_factory=FrozenDict)
+    """Domain options that differ from their defaults."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "options", FrozenDict(self.options))
+        if self.max_llm_calls < 1:
+            raise UsageError(f"the number of model calls must be at least 1, not {self.max_llm_calls}.")
+        if self.trace_size < 0:
+            raise UsageError(f"the trace size must be 0 or more, not {self.trace_size}.")
+        if self.llm is None:
+            object.__setattr__(self, "llm", "http" if self.model else "offline")
+        elif self.model and self.llm != "http":
+            raise UsageError(f"--model goes with the backend 'http', not with {self.llm!r}.")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A domain's instance, its options, and the world made from them. Close it, or use it in a ``with``."""
+
+    domain: Domain
+    instance: Any
+    options: Options
+    env: Env
+
+    def __enter__(self) -> Problem:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.env.close()
+
+
+@dataclass(frozen=True)
+class Run:
+    """Everything that :func:`llm3.solve` needs, made from a RunConfig. Close it, or use it in a ``with``."""
+
+    config: RunConfig
+    problem: Problem
+    skeleton: tuple[Sketch, ...]
+    prompt: Prompt
+    backend: LLMBackend
+    planner: MotionPlanner
+    feedback: FeedbackSynthesizer
+
+    def solve(self, observer: Observer = nobody) -> Result:
+        """Run it; see :func:`llm3.solve`."""
+        config = self.config
+        return solve(
+            self.problem.env,
+            backend=self.backend,
+            planner=self.planner,
+            feedback=self.feedback,
+            prompt=self.prompt,
+            skeleton=self.skeleton,
+            budget=Budget(config.max_llm_calls, config.trace_size),
+            seed=config.seed,
+            observer=observer,
+        )
+
+    def close(self) -> None:
+        """Let go of the world and the backend. Calling it twice does no harm."""
+        self.backend.close()
+        self.problem.env.close()
+
+    def __enter__(self) -> Run:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def choose_instance(domain: Domain, setting: str | None, seed: int) -> Any:
+    """The instance of a setting, or of the default one, and a seed.
+
+    Raises:
+        UnknownName: The domain has no such setting.
+    """
+    setting = setting or domain.default_setting
+    if setting not in domain.settings:
+        raise UnknownName(f"setting of domain {domain.name!r}", setting, domain.settings)
+    return domain.instance(setting, seed)
+
+
+def choose_options(domain: Domain, given: Mapping[str, str]) -> Options:
+    """A value for every option of the domain.
+
+    Raises:
+        UnknownName: The domain has no such option, or the option no such value.
+    """
+    known = {option.name: option for option in domain.options}
+    for name, value in given.items():
+        if name not in known:
+            raise UnknownName(f"option of domain {domain.name!r}", name, known)
+        choices = known[name].choices
+        if choices and value not in choices:
+            raise UnknownName(f"value of option {name!r}", value, choices)
+    return FrozenDict({name: given.get(name, option.default) for name, option in known.items()})
+
+
+def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False) -> Problem:
+    """Make the world of an instance, and show it in a window if asked.
+
+    Raises:
+        UnknownName: The domain has no such option.
+        MissingCapability: The domain has no window.
+    """
+    chosen = choose_options(domain, options)
+    env = domain.make_in_window(instance, chosen) if window else domain.make(instance, chosen)
+    if env is None:
+        raise MissingCapability(domain.name, "window", "--gui")
+    return Problem(domain, instance, chosen, env)
+
+
+def given_skeleton(domain: Domain, instance: Any, strategy: Strategy, name: str) -> tuple[Sketch, ...]:
+    """The action sequence that a prompt of this strategy shows; empty where the model writes its own.
+
+    Raises:
+        MissingCapability: The strategy needs one, and the domain has none.
+    """
+    if not strategy.fixed_sequence:
+        return ()
+    skeleton = domain.skeleton(instance)
+    if not skeleton:
+        raise MissingCapability(domain.name, "skeleton", f"strategy {name!r}")
+    return skeleton
+
+
+def assemble(registry: Registry, config: RunConfig, instance: Any = None, window: bool = False) -> Run:
+    """Make everything that a run needs.
+
+    Args:
+        registry: Where the names are looked up.
+        config: What the user asks for.
+        instance: The problem, where it does not come from setting and seed.
+        window: Whether to show the world in the domain's window.
+
+    Raises:
+        LLM3Error: A name is unknown, or the domain lacks what the strategy or the backend needs.
+    """
+    domain = registry.domain(config.domain)
+    strategy = registry.strategy(config.strategy)
+    feedback = registry.feedback(config.feedback)
+    planner = registry.planner(config.planner)
+    prompt = Prompt(strategy)
+    if instance is None:
+        instance = choose_instance(domain, config.setting, config.seed)
+        config = replace(config, setting=config.setting or domain.default_setting)
+    skeleton = given_skeleton(domain, instance, strategy, config.strategy)
+    name, _, argument = (config.llm or "").partition(":")
+    backend = registry.backend(
+        name,
+        BackendSettings(
+            domain=domain.name,
+            argument=argument or None,
+            model=config.model,
+            temperature=config.temperature,
+            stand_in=domain.stand_in(),
+            skeleton=domain.skeleton(instance) or (),
+            regions=domain.regions(instance) or FrozenDict(),
+        ),
+    )
+    problem = open_problem(domain, instance, config.options, window)
+    return Run(config, problem, skeleton, prompt, backend, planner, feedback)

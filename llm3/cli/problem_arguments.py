@@ -1,0 +1,77 @@
+"""The arguments that choose a problem, shared by several commands."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from pathlib import Path
+from typing import Any
+
+from llm3.assembly import RunConfig
+from llm3.errors import UsageError
+from llm3.interfaces import Domain
+from llm3.jsonio import read_file
+from llm3.registry import Registry
+
+_DEFAULT = RunConfig(domain="")
+
+
+def add_problem_arguments(parser: ArgumentParser) -> None:
+    """Add ``--domain``, ``--setting`` and ``--seed``."""
+    parser.add_argument("--domain", metavar="NAME", help="the kind of problem, such as boxpack")
+    parser.add_argument("--setting", metavar="NAME", help="a problem family (default: the domain's own)")
+    parser.add_argument("--seed", type=int, default=0, help="chooses the problem, and seeds the run (default: 0)")
+
+
+def add_world_arguments(parser: ArgumentParser) -> None:
+    """Add ``--instance`` and ``-D``."""
+    parser.add_argument("--instance", type=Path, metavar="FILE", help="load the problem from a JSON file instead")
+    parser.add_argument(
+        "-D",
+        dest="options",
+        metavar="KEY=VALUE",
+        type=_option,
+        action="append",
+        default=[],
+        help="set an option of the domain; may be given several times",
+    )
+
+
+def add_prompt_arguments(parser: ArgumentParser) -> None:
+    """Add ``--strategy``."""
+    parser.add_argument(
+        "--strategy",
+        metavar="NAME",
+        default=_DEFAULT.strategy,
+        help=f"how the model is asked (default: {_DEFAULT.strategy})",
+    )
+
+
+def chosen_domain(registry: Registry, arguments: Namespace) -> Domain:
+    """The domain that the user named.
+
+    Raises:
+        UsageError: None was named.
+    """
+    if not arguments.domain:
+        raise UsageError(f"no domain: give --domain NAME. Known: {', '.join(registry.names('domain'))}.")
+    return registry.domain(arguments.domain)
+
+
+def loaded_instance(domain: Domain, arguments: Namespace) -> Any:
+    """The instance of ``--instance``, or None.
+
+    Raises:
+        InputError: The file does not hold an instance of the domain.
+    """
+    if not arguments.instance:
+        return None
+    if arguments.setting:
+        raise UsageError("--setting and --instance both choose a problem: give one of them.")
+    return read_file(arguments.instance, domain.instance_type)
+
+
+def _option(text: str) -> tuple[str, str]:
+    key, equals, value = text.partition("=")
+    if not key or not equals:
+        raise ArgumentTypeError(f"expected KEY=VALUE, not {text!r}")
+    return key, value

@@ -1,0 +1,47 @@
+"""Print what a model would be sent first, without sending it."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+
+from llm3.assembly import choose_instance, given_skeleton, open_problem
+from llm3.cli.problem_arguments import (
+    add_problem_arguments,
+    add_prompt_arguments,
+    add_world_arguments,
+    chosen_domain,
+    loaded_instance,
+)
+from llm3.jsonio import dumps
+from llm3.prompts import Prompt
+from llm3.registry import Registry
+from llm3.types import Context
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add_problem_arguments(parser)
+    add_world_arguments(parser)
+    add_prompt_arguments(parser)
+    parser.add_argument("--json", action="store_true", help="print the messages as JSON")
+
+
+def run(arguments: Namespace) -> int:
+    """Run the command."""
+    registry = Registry.discover()
+    domain = chosen_domain(registry, arguments)
+    strategy = registry.strategy(arguments.strategy)
+    prompt = Prompt(strategy)
+    instance = loaded_instance(domain, arguments)
+    if instance is None:
+        instance = choose_instance(domain, arguments.setting, arguments.seed)
+    skeleton = given_skeleton(domain, instance, strategy, arguments.strategy)
+    with open_problem(domain, instance, dict(arguments.options)) as problem:
+        env = problem.env
+        context = Context(env.task, env.schemas, env.objects, env.describe(env.reset()), skeleton=skeleton)
+        messages = prompt.render(context)
+    if arguments.json:
+        print(dumps(messages))
+    else:
+        print("\n\n".join(f"--- {m.role} ---\n\n{m.content}" for m in messages))
+    return 0

@@ -1,0 +1,139 @@
+"""Plan for one problem: a model proposes, a motion planner tries, and what failed goes back to the model."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from datetime import datetime
+from pathlib import Path
+
+from llm3.assembly import RunConfig, assemble
+from llm3.cli.problem_arguments import (
+    add_problem_arguments,
+    add_prompt_arguments,
+    add_world_arguments,
+    chosen_domain,
+    loaded_instance,
+)
+from llm3.jsonio import dumps
+from llm3.records import Recorder, create_folder, default_folder
+from llm3.registry import Registry
+from llm3.types import Result, RunEvent
+
+_DEFAULT = RunConfig(domain="")
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    parser.add_argument("--version", action="version", version=_version())
+    add_problem_arguments(parser)
+    add_world_arguments(parser)
+    add_prompt_arguments(parser)
+    add = parser.add_argument
+    add(
+        "--feedback",
+        metavar="NAME",
+        default=_DEFAULT.feedback,
+        help=f"what the model hears of failures (default: {_DEFAULT.feedback})",
+    )
+    add("--llm", metavar="NAME", help="the backend (default: offline, which is no language model)")
+    add("--model", metavar="NAME", help="the language model; implies --llm http")
+    add("--temperature", type=float, metavar="T", help="sent to the model only if given")
+    add(
+        "--planner",
+        metavar="NAME",
+        default=_DEFAULT.planner,
+        help=f"the motion planner (default: {_DEFAULT.planner})",
+    )
+    add(
+        "--max-llm-calls",
+        type=int,
+        metavar="N",
+        default=_DEFAULT.max_llm_calls,
+        help=f"the budget (default: {_DEFAULT.max_llm_calls})",
+    )
+    add(
+        "--trace-size",
+        type=int,
+        metavar="K",
+        default=_DEFAULT.trace_size,
+        help=f"how many earlier attempts a prompt tells of (default: {_DEFAULT.trace_size})",
+    )
+    add("--out", type=Path, metavar="DIR", help="where the record goes (default: a new folder under runs/)")
+    add("--force", action="store_true", help="overwrite the record in DIR")
+    add("--gui", action="store_true", help="open the domain's window")
+    add("--json", action="store_true", help="print one JSON object instead of the plan")
+    add("--quiet", action="store_true", help="no progress on stderr")
+
+
+def run(arguments: Namespace) -> int:
+    """Run the command: 0 solved, 1 not solved."""
+    from llm3.cli.view import RunView  # rich takes a while to import
+
+    registry = Registry.discover()
+    domain = chosen_domain(registry, arguments)
+    config = RunConfig(
+        domain=arguments.domain,
+        setting=arguments.setting,
+        seed=arguments.seed,
+        strategy=arguments.strategy,
+        feedback=arguments.feedback,
+        llm=arguments.llm,
+        model=arguments.model,
+        temperature=arguments.temperature,
+        planner=arguments.planner,
+        max_llm_calls=arguments.max_llm_calls,
+        trace_size=arguments.trace_size,
+        options=dict(arguments.options),
+    )
+    view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
+    for broken in registry.broken:
+        view.note(f"warning: plugin {broken.plugin} failed to load: {broken.reason}")
+    with assemble(registry, config, loaded_instance(domain, arguments), arguments.gui) as ready:
+        config = ready.config
+        name = f"{config.domain}-{config.setting or 'instance'}-{config.seed}"
+        folder = create_folder(arguments.out or default_folder(name, datetime.now()), arguments.force)
+        if ready.backend.notice:
+            view.note(ready.backend.notice)
+        with Recorder(folder, ready) as record, view:
+
+            def observe(event: RunEvent) -> None:
+                record(event)
+                view(event)
+
+            result = ready.solve(observe)
+        view.summary(result, record.seconds, folder)
+    if arguments.json:
+        print(dumps(_summary(config, result, record.seconds, folder)))
+    else:
+        for step in result.plan:
+            print(step.action)
+    return 0 if result.solved else 1
+
+
+def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) -> dict[str, object]:
+    return {
+        "solved": result.solved,
+        "domain": config.domain,
+        "setting": config.setting,
+        "seed": config.seed,
+        "strategy": config.strategy,
+        "feedback": config.feedback,
+        "llm": config.llm,
+        "model": config.model,
+        "planner": config.planner,
+        "llm_calls": result.stats.llm_calls,
+        "motion_calls": result.stats.motion_calls,
+        "reused_actions": result.stats.reused_actions,
+        "seconds": round(seconds, 3),
+        "plan": [str(step.action) for step in result.plan],
+        "out": str(folder),
+    }
+
+
+def _version() -> str:
+    from importlib import metadata
+
+    try:
+        return f"llm3 {metadata.version('llm3')}"
+    except metadata.PackageNotFoundError:
+        return "llm3, not installed"

@@ -1,0 +1,101 @@
+"""The view of a run on stderr: coloured and live in a terminal, plain lines in a pipe."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import TracebackType
+
+from rich.console import Console
+from rich.status import Status
+from rich.text import Text
+
+from llm3.cli.text import printable
+from llm3.types import (
+    ActionTried,
+    AttemptEnded,
+    Failure,
+    Outcome,
+    PromptSent,
+    ReplyRead,
+    Result,
+    RunEvent,
+)
+
+
+class RunView:
+    """An observer that shows attempts, actions and outcomes. Use it in a ``with`` while the run goes on."""
+
+    def __init__(self, quiet: bool, budget: int) -> None:
+        """Start with nothing on the screen.
+
+        Args:
+            quiet: Show nothing at all.
+            budget: The number of model calls that the run may make.
+        """
+        self._console = Console(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
+        self._budget = budget
+        self._status: Status | None = None
+        if self._console.is_terminal and not self._console.is_dumb_terminal and not quiet:
+            self._status = Status("", console=self._console)
+
+    def __enter__(self) -> RunView:
+        if self._status:
+            self._status.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._status:
+            self._status.stop()
+
+    def note(self, text: str) -> None:
+        """Show one line that is not part of the run."""
+        self._line(text, "yellow")
+
+    def __call__(self, event: RunEvent) -> None:
+        """Show one event."""
+        if isinstance(event, PromptSent):
+            self._wait(f"attempt {event.attempt} of {self._budget}: asking for a plan")
+        elif isinstance(event, ReplyRead):
+            if isinstance(event.proposal, Failure):
+                self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
+            else:
+                count = len(event.proposal.actions)
+                self._line(f"attempt {event.attempt}: a plan of {count} action{'s' * (count != 1)}", "bold")
+                self._wait(f"attempt {event.attempt} of {self._budget}: trying the plan")
+        elif isinstance(event, ActionTried):
+            self._outcome(event.index + 1, event.outcome)
+        elif isinstance(event, AttemptEnded) and event.attempt.failure is None and not event.attempt.goal.achieved:
+            self._line(f"    goal not reached: {'; '.join(event.attempt.goal.unmet)}", "red")
+
+    def summary(self, result: Result, seconds: float, folder: Path) -> None:
+        """Show how the run ended, what it took, and where the record is."""
+        stats = result.stats
+        word, style = ("solved", "bold green") if result.solved else ("not solved", "bold red")
+        self._line(
+            f"{word} in {seconds:.1f} s: {stats.llm_calls} model calls, {stats.motion_calls} motion calls, "
+            f"{stats.reused_actions} actions reused",
+            style,
+        )
+        if result.time_limited:
+            self._line("the time limit of a query was hit: another run may end differently", "yellow")
+        self._line(f"record: {folder}")
+
+    def _outcome(self, number: int, outcome: Outcome) -> None:
+        failure = outcome.failure
+        if failure is None:
+            self._line(f"{number:>4}. {outcome.action}: feasible{' (known)' * outcome.reused}", "green")
+        else:
+            objects = f" ({', '.join(failure.objects)})" if failure.objects else ""
+            detail = f": {failure.detail}" if failure.detail else ""
+            self._line(f"{number:>4}. {outcome.action}: {failure.kind.value}{objects}{detail}", "red")
+        for note in outcome.notes:
+            self._line(f"      {note}", "yellow")
+
+    def _line(self, text: str, style: str = "") -> None:
+        self._console.print(Text(printable(text, keep_spaces=True), style=style))
+
+    def _wait(self, text: str) -> None:
+        if self._status:
+            self._status.update(Text(text))

@@ -1,0 +1,81 @@
+"""What can go wrong with the program, as opposed to the robot.
+
+Each error carries one sentence for the user, which names the offending value and the valid ones.
+What the *robot* cannot do is never an exception: it is a :class:`llm3.types.Failure`, and the model reads it.
+
+::
+
+    LLM3Error                 exit code 3
+    ├── UsageError            exit code 2: the command or the call asks for something that is not there
+    │   ├── UnknownName       no plugin, setting or option of that name
+    │   ├── MissingCapability the domain lacks what the command needs
+    │   └── OutputExists      the output folder would be overwritten
+    ├── InputError            a file or a value from outside does not have the documented form
+    ├── PluginError           a plugin is broken, or two plugins claim one name
+    ├── MissingDependency     a package that is not installed is needed for what was asked
+    └── BackendError          the language model cannot be reached or refuses to answer
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class LLM3Error(Exception):
+    """Base of all errors of the framework; its text is one line for the user."""
+
+    exit_code = 3
+
+
+class UsageError(LLM3Error):
+    """The command line or the call asks for something that is not there."""
+
+    exit_code = 2
+
+
+class UnknownName(UsageError):
+    """No thing of this kind has this name."""
+
+    def __init__(self, kind: str, name: str, known: Iterable[str], remark: str = "") -> None:
+        """Say what was asked for, what comes close to it and what there is.
+
+        Args:
+            kind: What the name should have named, such as ``"domain"``.
+            name: The unknown name.
+            known: The valid names.
+            remark: A further sentence, such as which plugins failed to load.
+        """
+        self.kind, self.name, self.known = kind, name, tuple(sorted(known))
+        close = difflib.get_close_matches(name, self.known, n=3)
+        guess = f"; did you mean {' or '.join(map(repr, close))}?" if close else "."
+        valid = ", ".join(self.known) or "none"
+        text = f"unknown {kind} {name!r}{guess} Known: {valid}."
+        super().__init__(f"{text} {remark}" if remark else text)
+
+
+class MissingCapability(UsageError):
+    """The domain does not offer what the command or the strategy needs."""
+
+    def __init__(self, domain: str, capability: str, needed_for: str) -> None:
+        super().__init__(f"domain {domain!r} has no {capability}, which {needed_for} needs.")
+
+
+class OutputExists(UsageError):
+    """The output folder holds files that would be overwritten."""
+
+
+class InputError(LLM3Error):
+    """A file or a value from outside does not have the documented form."""
+
+
+class PluginError(LLM3Error):
+    """A plugin is broken, or two plugins claim one name."""
+
+
+class MissingDependency(LLM3Error):
+    """What was asked for needs a package that is not installed."""
+
+
+class BackendError(LLM3Error):
+    """The language model cannot be reached or refuses to answer."""

@@ -1,0 +1,61 @@
+"""The hooks that a plugin may implement.
+
+Each hook returns factories by name and is called once, when the registry loads the plugin; a factory is called when
+its name is asked for, so heavy imports belong inside it. A plugin is a module (or an object) named by an entry point
+of group ``llm3``; it implements any of these functions, marked with :data:`hookimpl`::
+
+    from llm3 import hookimpl
+
+    @hookimpl
+    def llm3_domains():
+        return {"corridor": Corridor}
+
+Within a major version, hooks and factory signatures only ever grow by optional parts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import pluggy
+
+from llm3.interfaces import (
+    BackendSettings,
+    Domain,
+    FeedbackSynthesizer,
+    LLMBackend,
+    MotionPlanner,
+    PlannerSettings,
+    Strategy,
+)
+
+hookspec = pluggy.HookspecMarker("llm3")
+hookimpl = pluggy.HookimplMarker("llm3")
+
+
+@hookspec
+def llm3_domains() -> Mapping[str, Callable[[], Domain]]:  # type: ignore[empty-body]  # a specification only
+    """Domains, for ``--domain NAME``.
+
+    The factory takes nothing and is cheap: what a world needs is imported in `Domain.make`.
+    """
+
+
+@hookspec
+def llm3_planners() -> Mapping[str, Callable[[PlannerSettings], MotionPlanner]]:  # type: ignore[empty-body]  # a specification only
+    """Motion planners, for ``--planner NAME``. The factory takes the budget of a query."""
+
+
+@hookspec
+def llm3_feedback() -> Mapping[str, Callable[[], FeedbackSynthesizer]]:  # type: ignore[empty-body]  # a specification only
+    """Feedback levels, for ``--feedback NAME``."""
+
+
+@hookspec
+def llm3_backends() -> Mapping[str, Callable[[BackendSettings], LLMBackend]]:  # type: ignore[empty-body]  # a specification only
+    """Model backends, for ``--llm NAME``. The factory takes what the user asked for."""
+
+
+@hookspec
+def llm3_strategies() -> Mapping[str, Callable[[], Strategy]]:  # type: ignore[empty-body]  # a specification only
+    """Prompt strategies, for ``--strategy NAME``."""

@@ -1,0 +1,60 @@
+"""The language model, or what stands in for it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from llm3.types import Completion, Context, FrozenDict, Request, Sketch
+
+Regions = Mapping[tuple[str, str], tuple[float, float]]
+"""Tighter ranges for random sampling, by (action name, parameter name)."""
+StandIn = Callable[[Context, np.random.Generator], str]
+"""Writes a reply from what a prompt tells: a rule-based stand-in for a model."""
+
+
+@dataclass(frozen=True)
+class BackendSettings:
+    """What the user asked of a backend."""
+
+    domain: str = ""
+    """The domain's name, for messages."""
+    argument: str | None = None
+    """What follows the colon in ``--llm NAME:ARGUMENT``, such as a file."""
+    model: str | None = None
+    temperature: float | None = None
+    """None: send no sampling parameter at all."""
+    stand_in: StandIn | None = None
+    """The domain's rule-based stand-in, where it has one."""
+    skeleton: tuple[Sketch, ...] = ()
+    """The domain's action sequence, where it has one."""
+    regions: Regions = field(default_factory=FrozenDict)
+    """The domain's sampling regions, where it has them."""
+
+
+class LLMBackend(ABC):
+    """Answers requests."""
+
+    @property
+    def is_language_model(self) -> bool:
+        """Whether a language model stands behind it; runs without one say so."""
+        return True
+
+    @property
+    def notice(self) -> str:
+        """One line that the user should read before the run, or nothing."""
+        return ""
+
+    @abstractmethod
+    def complete(self, request: Request) -> Completion:
+        """Answer one request.
+
+        Raises:
+            BackendError: There is no answer to be had.
+        """
+
+    def close(self) -> None:
+        """Let go of connections. Calling it twice does no harm."""

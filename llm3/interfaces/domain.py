@@ -1,0 +1,75 @@
+"""What a domain plugin registers."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from llm3.interfaces.backend import Regions, StandIn
+from llm3.interfaces.env import Env
+from llm3.types import Sketch
+
+Options = Mapping[str, str]
+"""Domain options as the user wrote them (``-D key=value``)."""
+
+
+@dataclass(frozen=True)
+class Option:
+    """An option that a domain takes from ``-D name=value``."""
+
+    name: str
+    default: str
+    help: str
+    choices: tuple[str, ...] = ()
+    """The valid values; empty where any text is taken."""
+
+
+class Domain(ABC):
+    """A family of planning problems.
+
+    A domain is cheap to make: simulators are imported and started in `make`. The methods below the line are
+    capabilities: a domain that lacks one leaves it alone, and a command that needs it says so.
+    """
+
+    name: str
+    description: str
+    """One line for ``llm3 list``."""
+    settings: tuple[str, ...]
+    """Names of the problem families, at least one."""
+    default_setting: str
+    options: tuple[Option, ...] = ()
+    instance_type: type[Any]
+    """A frozen dataclass of JSON-safe fields; instance files hold one. Its `__post_init__` raises ValueError."""
+
+    @abstractmethod
+    def instance(self, setting: str, seed: int) -> Any:
+        """The problem of this setting and seed, an `instance_type`; the same call gives the same problem."""
+
+    @abstractmethod
+    def make(self, instance: Any, options: Options) -> Env:
+        """A world for the instance.
+
+        Args:
+            instance: An `instance_type`.
+            options: A value for every one of the domain's `options`, checked against its choices.
+        """
+
+    # ---- capabilities: None means that the domain has none --------------------------------------------
+
+    def skeleton(self, instance: Any) -> tuple[Sketch, ...] | None:  # noqa: ARG002  # part of the interface
+        """The action sequence that `sample-params` and the random sampler fill in."""
+        return None
+
+    def regions(self, instance: Any) -> Regions | None:  # noqa: ARG002  # part of the interface
+        """Tighter ranges for random sampling than the schemas', such as the inside of a basket."""
+        return None
+
+    def stand_in(self) -> StandIn | None:
+        """A rule-based stand-in for a model, which knows no more than the prompt tells."""
+        return None
+
+    def make_in_window(self, instance: Any, options: Options) -> Env | None:  # noqa: ARG002  # part of the interface
+        """Like `make`, with the world shown in a window."""
+        return None

@@ -1,0 +1,89 @@
+"""JSON in and out: canonical text for dataclasses, and strict reading that names the field that is wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, TypeVar
+
+import msgspec
+import numpy as np
+
+from llm3.errors import InputError
+
+T = TypeVar("T")
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} has no JSON form")
+
+
+def dumps(value: Any) -> str:
+    """One line of JSON with sorted keys: equal values give equal text.
+
+    Raises:
+        TypeError: Something inside has no JSON form.
+    """
+    return msgspec.json.encode(value, enc_hook=_plain, order="sorted").decode()
+
+
+def pretty(value: Any) -> str:
+    """JSON for people: fields in their own order, indented, with a newline at the end."""
+    return msgspec.json.format(msgspec.json.encode(value, enc_hook=_plain), indent=2).decode() + "\n"
+
+
+def to_builtins(value: Any) -> Any:
+    """Dicts, lists, strings, numbers, booleans and None."""
+    return msgspec.to_builtins(value, enc_hook=_plain, str_keys=True)
+
+
+def loads(text: str | bytes, type_: type[T], source: str) -> T:
+    """Read JSON into a dataclass, strictly.
+
+    Args:
+        text: The JSON.
+        type_: What it should hold. A ValueError of its `__post_init__` becomes part of the message.
+        source: Where the text comes from, for the message.
+
+    Raises:
+        InputError: One line that names the source, the field and what is wrong with it.
+    """
+    try:
+        value = msgspec.json.decode(text, type=type_)
+        extra = _unknown_field(msgspec.json.decode(text), to_builtins(value), "$")
+    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise InputError(f"{source}: {error}") from error
+    if extra:
+        raise InputError(f"{source}: {extra}")
+    return value
+
+
+def _unknown_field(raw: Any, known: Any, where: str) -> str:
+    """Which field of the raw JSON the dataclass does not have; msgspec passes over those in silence."""
+    if isinstance(raw, dict) and isinstance(known, dict):
+        for key, value in raw.items():
+            if key not in known:
+                return f"unknown field `{key}`, expected {', '.join(known)} - at `{where}`"
+            if found := _unknown_field(value, known[key], f"{where}.{key}"):
+                return found
+    elif isinstance(raw, list) and isinstance(known, list):
+        for index, (value, other) in enumerate(zip(raw, known, strict=False)):
+            if found := _unknown_field(value, other, f"{where}[{index}]"):
+                return found
+    return ""
+
+
+def read_file(path: Path, type_: type[T]) -> T:
+    """Read a JSON file into a dataclass; see :func:`loads`.
+
+    Raises:
+        InputError: The file cannot be read or does not hold such a thing.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}") from error
+    return loads(data, type_, str(path))

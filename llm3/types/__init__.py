@@ -1,0 +1,87 @@
+"""The nouns of the framework: frozen dataclasses, JSON-safe but for `MotionProblem` and `Path`."""
+
+from llm3.types.actions import Action, ActionSchema, Parameter
+from llm3.types.attempts import Attempt, Outcome, Proposal, Rejected
+from llm3.types.dialogue import Completion, Context, Entity, Feedback, Message, Remark, Request, Sketch
+from llm3.types.events import (
+    ActionTried,
+    AttemptEnded,
+    Observer,
+    PromptSent,
+    ReplyRead,
+    ReplyReceived,
+    RunEnded,
+    RunEvent,
+    RunStarted,
+    nobody,
+)
+from llm3.types.failures import Contact, Failure, FailureKind
+from llm3.types.frozen import FrozenDict
+from llm3.types.motion import (
+    Event,
+    EventKind,
+    Goal,
+    Mask,
+    Motion,
+    MotionProblem,
+    NoMotion,
+    Path,
+    Segment,
+    Vector,
+    Waypoints,
+)
+from llm3.types.results import PlannedAction, Result
+from llm3.types.state import Fact, GoalStatus, Held, Pose, State, Transition
+from llm3.types.stats import Stats
+
+__all__ = [
+    "Action",
+    "ActionSchema",
+    "ActionTried",
+    "Attempt",
+    "AttemptEnded",
+    "Completion",
+    "Contact",
+    "Context",
+    "Entity",
+    "Event",
+    "EventKind",
+    "Fact",
+    "Failure",
+    "FailureKind",
+    "Feedback",
+    "FrozenDict",
+    "Goal",
+    "GoalStatus",
+    "Held",
+    "Mask",
+    "Message",
+    "Motion",
+    "MotionProblem",
+    "NoMotion",
+    "Observer",
+    "Outcome",
+    "Parameter",
+    "Path",
+    "PlannedAction",
+    "Pose",
+    "PromptSent",
+    "Proposal",
+    "Rejected",
+    "Remark",
+    "ReplyRead",
+    "ReplyReceived",
+    "Request",
+    "Result",
+    "RunEnded",
+    "RunEvent",
+    "RunStarted",
+    "Segment",
+    "Sketch",
+    "State",
+    "Stats",
+    "Transition",
+    "Vector",
+    "Waypoints",
+    "nobody",
+]

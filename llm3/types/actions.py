@@ -1,0 +1,52 @@
+"""Symbolic actions with continuous parameters, and the schemas that say which ones there are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from llm3.types.frozen import FrozenDict
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A continuous parameter of an action: any value from `low` to `high`, both included."""
+
+    name: str
+    low: float
+    high: float
+    unit: str = ""
+    """The unit as the model reads it, such as ``"m"`` or ``"rad"``."""
+
+
+@dataclass(frozen=True)
+class ActionSchema:
+    """A primitive action: what it takes and what it does.
+
+    The ranges in a prompt, the checks on a reply and the random sampler all come from here.
+    """
+
+    name: str
+    objects: tuple[str, ...] = ()
+    """What each object argument stands for, in order, such as ``("box",)``."""
+    parameters: tuple[Parameter, ...] = ()
+    description: str = ""
+    """One sentence for the model, without a full stop, such as ``"pick up the box from above"``."""
+
+
+@dataclass(frozen=True)
+class Action:
+    """A ground action, such as ``place(['red_box'], {'x': 0.5, 'y': 0.0, 'theta': 0.0})``."""
+
+    name: str
+    objects: tuple[str, ...] = ()
+    params: Mapping[str, float] = field(default_factory=FrozenDict)
+    """Values by parameter name, in the schema's order and units."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", tuple(self.objects))
+        object.__setattr__(self, "params", FrozenDict({k: float(v) for k, v in self.params.items()}))
+
+    def __str__(self) -> str:
+        """Exactly what a model writes; parsing it gives this action back, to the last bit."""
+        return f"{self.name}({list(self.objects)!r}, {dict(self.params)!r})"

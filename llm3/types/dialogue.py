@@ -1,0 +1,116 @@
+"""What goes to a language model and what comes back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+from llm3.types.actions import ActionSchema
+from llm3.types.frozen import FrozenDict
+from llm3.types.stats import Stats
+
+Property = str | int | float | tuple[float, ...]
+Role = Literal["system", "user", "assistant"]
+
+
+@dataclass(frozen=True)
+class Message:
+    """One message of a chat."""
+
+    role: Role
+    content: str
+
+
+@dataclass(frozen=True)
+class Entity:
+    """A thing in the world as the model reads it: a name and what is known of it.
+
+    Numbers are written into the prompt as they are, so round them here (to the millimetre, say).
+    """
+
+    name: str
+    properties: Mapping[str, Property] = field(default_factory=FrozenDict)
+    """Such as ``{"position": (0.39, -0.2, 0.035), "size": (0.07, 0.07, 0.07), "yaw": 0.0}``; SI units."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "properties", FrozenDict(self.properties))
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """A symbolic action whose parameters are still open, such as ``place(['red_box'], …)``."""
+
+    name: str
+    objects: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return f"{self.name}({list(self.objects)!r}, ...)"
+
+
+@dataclass(frozen=True)
+class Remark:
+    """What the model is told about one action of an earlier plan."""
+
+    action: str
+    """The action as the model wrote it."""
+    verdict: Literal["feasible", "failed", "not tried"]
+    text: str = ""
+    """Why, or what happened besides."""
+
+
+@dataclass(frozen=True)
+class Feedback:
+    """What the model is told about one earlier attempt."""
+
+    attempt: int
+    """Counted from 1."""
+    remarks: tuple[Remark, ...] = ()
+    """One for each action of the plan, in order; empty when no plan could be read."""
+    summary: str = ""
+    """About the attempt as a whole: what of the goal is missing, or why the reply could not be read."""
+
+
+@dataclass(frozen=True)
+class Context:
+    """All that a prompt is rendered from, and nothing that the prompt leaves out."""
+
+    task: str
+    """What the world, the robot and the goal are, in the domain's words."""
+    actions: tuple[ActionSchema, ...]
+    objects: tuple[str, ...]
+    """The names that an action may take."""
+    state: tuple[Entity, ...]
+    """The initial state."""
+    trace: tuple[Feedback, ...] = ()
+    """Earlier attempts, oldest first."""
+    skeleton: tuple[Sketch, ...] = ()
+    """The given action sequence, for strategies that fix it."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """A question to a language model."""
+
+    messages: tuple[Message, ...]
+    context: Context
+    """What the messages were rendered from: for stand-ins, which cannot read prose. A real model never sees it."""
+    seed: int = 0
+    """For stand-ins that draw: derived from the run's seed and the number of the call."""
+
+
+@dataclass(frozen=True)
+class Completion:
+    """A language model's answer."""
+
+    text: str
+    stats: Stats = Stats()
+    """Tokens and retries that it cost."""
+    model: str = ""
+    """The model as the server names it."""
+    finish_reason: str = ""
+    """Why the text ends, as the server says, such as ``"stop"`` or ``"length"``."""
+
+    def __post_init__(self) -> None:
+        # A server may escape half of a surrogate pair, which no file can hold.
+        object.__setattr__(self, "text", self.text.encode(errors="replace").decode())

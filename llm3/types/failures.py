@@ -1,0 +1,83 @@
+"""What the robot cannot do, as values that travel back to the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+
+from llm3.types.frozen import FrozenDict
+from llm3.types.stats import Stats
+
+
+class FailureKind(str, Enum):
+    """Why an action, or a whole reply, cannot be carried out."""
+
+    UNREACHABLE = "unreachable"
+    """No configuration of the robot reaches the goal (no inverse kinematics solution)."""
+    GOAL_IN_COLLISION = "goal in collision"
+    """Every configuration that reaches the goal touches something."""
+    START_IN_COLLISION = "start in collision"
+    """The robot touches something where it stands."""
+    NO_PATH = "no path within budget"
+    """Start and goal are free, but the planner found no path between them. Another seed may find one."""
+    PRECONDITION = "precondition"
+    """The action makes no sense in this state, such as placing what is not held."""
+    INVALID_ACTION = "invalid action"
+    """The action does not fit its schema."""
+    UNREADABLE_REPLY = "unreadable reply"
+    """No plan can be read from the model's text."""
+
+    @property
+    def is_motion(self) -> bool:
+        """Whether motion feasibility was evaluated to find out; such failures count as motion calls."""
+        return self in _MOTION_KINDS
+
+    @property
+    def is_final(self) -> bool:
+        """Whether the same action in the same state would fail again, whatever the random seed."""
+        return self is not FailureKind.NO_PATH
+
+
+_MOTION_KINDS = frozenset(
+    {
+        FailureKind.UNREACHABLE,
+        FailureKind.GOAL_IN_COLLISION,
+        FailureKind.START_IN_COLLISION,
+        FailureKind.NO_PATH,
+    }
+)
+
+
+@dataclass(frozen=True)
+class Contact:
+    """Two things that touch, or come closer than they may."""
+
+    part: str
+    """What touches, from the robot's side, such as ``"arm"``, ``"gripper"`` or ``"held box"``."""
+    object: str
+    """What is touched."""
+    depth: float = 0.0
+    """Penetration in metres; negative is a remaining gap."""
+    normal: tuple[float, ...] = ()
+    """Unit vector in the world frame that points from the object to the part: the way out."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Why something cannot be done, with the evidence."""
+
+    kind: FailureKind
+    detail: str = ""
+    """A sentence for the model where the kind alone does not say enough."""
+    objects: tuple[str, ...] = ()
+    """The objects that are to blame, the most important first."""
+    contacts: tuple[Contact, ...] = ()
+    """What touched what, the deepest first."""
+    measures: Mapping[str, float] = field(default_factory=FrozenDict)
+    """Figures by name, such as ``{"position_error": 0.05}``; metres, radians or counts."""
+    stats: Stats = field(default=Stats(), compare=False)
+    """What it cost to find out."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "measures", FrozenDict(self.measures))

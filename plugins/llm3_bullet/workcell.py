@@ -1,0 +1,44 @@
+"""A robot with everything that plans for it, over two simulators of its own."""
+
+from __future__ import annotations
+
+from llm3_bullet.clients import connect
+from llm3_bullet.collision import CollisionChecker
+from llm3_bullet.inverse import InverseKinematics
+from llm3_bullet.kinematics import Kinematics
+from llm3_bullet.model import RobotModel
+from llm3_bullet.robot import ParallelGripper, RobotDescription
+from llm3_bullet.settle import Settler
+from llm3_bullet.touchdown import TouchdownPlanner
+
+
+class Workcell:
+    """What a domain needs to plan with one robot. Whatever it keeps is a cache: answers depend on questions alone."""
+
+    def __init__(self, description: RobotDescription, gui: bool = False) -> None:
+        """Start the simulators and load the robot.
+
+        Args:
+            description: The robot.
+            gui: Whether to show the robot's world in a window.
+
+        Raises:
+            MissingDependency: PyBullet is not installed.
+        """
+        self.model = RobotModel(description)
+        self.kinematics = Kinematics(self.model)
+        self._clients = (connect(gui), connect())  # the robot among boxes, and boxes that fall
+        self.checker = CollisionChecker(self._clients[0], self.model, self.kinematics)
+        self.settler = Settler(self._clients[1])
+        self.inverse = InverseKinematics(self.kinematics)
+        self.touchdowns = TouchdownPlanner(self.kinematics, self.inverse, self.checker)
+
+    @property
+    def gripper(self) -> ParallelGripper:
+        """The robot's gripper."""
+        return self.model.description.gripper
+
+    def close(self) -> None:
+        """Stop the simulators. Calling it twice does no harm."""
+        for client in self._clients:
+            client.close()

@@ -1,0 +1,1 @@
+"""Backends that need no network and no language model."""

@@ -1,0 +1,56 @@
+"""Uniform random parameters over a given action sequence: the random row of the paper's Table II."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+
+from llm3 import BackendSettings, LLMBackend
+from llm3.errors import MissingCapability
+from llm3.types import Action, Completion, Request
+
+
+class RandomBackend(LLMBackend):
+    """Fills the domain's action sequence with parameters drawn uniformly.
+
+    Each is drawn from its range in the schema or, where the domain names one, from a tighter region.
+    """
+
+    def __init__(self, settings: BackendSettings, notice: str = "") -> None:
+        """Take the domain's sequence and regions.
+
+        Args:
+            settings: What the domain offers.
+            notice: What to tell the user instead of the usual line.
+
+        Raises:
+            MissingCapability: The domain gives no action sequence.
+        """
+        if not settings.skeleton:
+            raise MissingCapability(settings.domain, "skeleton", "the backend 'random'")
+        self._skeleton, self._regions = settings.skeleton, settings.regions
+        self._notice = notice or "No language model is used: the parameters are drawn at random."
+
+    @property
+    def is_language_model(self) -> bool:
+        """It is none."""
+        return False
+
+    @property
+    def notice(self) -> str:
+        """Says so."""
+        return self._notice
+
+    def complete(self, request: Request) -> Completion:
+        """The sequence with fresh parameters."""
+        rng = np.random.default_rng(request.seed)
+        schemas = {schema.name: schema for schema in request.context.actions}
+        plan: list[str] = []
+        for sketch in self._skeleton:
+            params: dict[str, float] = {}
+            for parameter in schemas[sketch.name].parameters:
+                low, high = self._regions.get((sketch.name, parameter.name), (parameter.low, parameter.high))
+                params[parameter.name] = round(float(rng.uniform(low, high)), 4)
+            plan.append(str(Action(sketch.name, sketch.objects, params)))
+        return Completion(json.dumps({"Reasoning": "The parameters are drawn at random.", "Full Plan": plan}))

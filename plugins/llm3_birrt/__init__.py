@@ -1,0 +1,1 @@
+"""A bidirectional RRT in numpy over a MotionProblem; it knows no robot and no simulator."""

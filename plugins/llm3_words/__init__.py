@@ -1,0 +1,1 @@
+"""The feedback levels: what a model is told of its earlier attempts."""

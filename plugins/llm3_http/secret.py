@@ -1,0 +1,49 @@
+"""A key that does not show itself."""
+
+from __future__ import annotations
+
+from llm3.errors import UsageError
+
+MASK = "***"
+_PLACEHOLDER = 8
+"""Shorter keys are words such as ``EMPTY`` or ``ollama``, which local servers ask for; texts may well contain them."""
+
+
+class Secret:
+    """A text that prints as ``***``; an empty one is no secret and is false.
+
+    It is not a dataclass, since ``dataclasses.asdict`` would spell out its field.
+    """
+
+    __slots__ = ("_value",)
+
+    def __init__(self, value: str = "", variable: str = "LLM3_API_KEY") -> None:
+        """Keep the value.
+
+        Args:
+            value: The key; space around it is dropped.
+            variable: Where it comes from, for the error.
+
+        Raises:
+            UsageError: It cannot be sent in an HTTP header. HTTP libraries quote such a header in their errors.
+        """
+        value = value.strip()
+        if not (value.isascii() and value.isprintable()) or " " in value:
+            raise UsageError(
+                f"{variable} holds a space or a character that is not printable ASCII: set it to the key alone"
+            )
+        self._value = value
+
+    def reveal(self) -> str:
+        """The value itself."""
+        return self._value
+
+    def redact(self, text: str) -> str:
+        """The text with ``***`` in place of the value; values of under eight characters are placeholders and stay."""
+        return text.replace(self._value, MASK) if len(self._value) >= _PLACEHOLDER else text
+
+    def __bool__(self) -> bool:
+        return bool(self._value)
+
+    def __repr__(self) -> str:
+        return MASK

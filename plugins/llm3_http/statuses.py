@@ -1,0 +1,54 @@
+"""What a status other than success means."""
+
+from __future__ import annotations
+
+from llm3.errors import BackendError
+from llm3_http.address import masked
+from llm3_http.reply import server_message
+from llm3_http.retry import TryAgain, read_retry_after
+from llm3_http.settings import HttpSettings
+from llm3_http.transport import Reply
+from llm3_http.wording import quoted
+
+_MAY_PASS = frozenset({408, 409, 425, 429})
+
+
+def check_status(reply: Reply, settings: HttpSettings, *, attempt: int, now: float) -> None:
+    """Let a success pass.
+
+    Args:
+        reply: What the server sent.
+        settings: For the sentences.
+        attempt: Which attempt this was, counted from 1.
+        now: Seconds since the epoch, by the wall clock; Retry-After may hold a date.
+
+    Raises:
+        TryAgain: The server is busy or out of order.
+        BackendError: The server refuses, and would refuse again.
+    """
+    status = reply.status
+    if 200 <= status < 300:
+        return
+    says = quoted(settings.clean(server_message(reply.body)))
+    server = f"the server at {settings.base_url}"
+    if status in _MAY_PASS or status >= 500:
+        tries = "1 try" if attempt == 1 else f"{attempt} tries"
+        raise TryAgain(
+            f"{server} answers {status} after {tries}: try again later, or give another --model{says}",
+            read_retry_after(reply.headers.get("Retry-After"), now),
+        )
+    if 300 <= status < 400:
+        target = settings.clean(masked(reply.headers.get("Location", ""))) or "nowhere"
+        raise BackendError(
+            f"{server} redirects to {target} ({status}), which is not followed, as the key would go with it: "
+            "set LLM3_BASE_URL to the right address"
+        )
+    if status in (401, 403):
+        verb = "refuses the key" if settings.key else "asks for a key"
+        raise BackendError(f"{server} {verb} ({status}): set {settings.key_variables}{says}")
+    if status == 404:
+        raise BackendError(
+            f"{server} has no model {settings.clean(settings.model)!r}, or is no such API (404): "
+            f"give another --model, or set LLM3_BASE_URL{says}"
+        )
+    raise BackendError(f"{server} refuses the request ({status}): check --model and --temperature{says}")

@@ -11,8 +11,8 @@ import numpy as np
 EDGE_MARGIN = 0.004
 """A box is planned at least this far inside of the basket, in metres."""
 SAMPLES = 400
-JITTER = 0.08
-"""How far chance may outweigh a place near the corners, in metres."""
+JITTER = 0.01
+"""How far chance may outweigh tightness, in metres."""
 SAME_SPOT = 0.02
 """A spot closer than this to one that failed, in metres, is not tried again."""
 
@@ -47,7 +47,7 @@ def choose_spot(
     wishes: Wishes,
     rng: np.random.Generator,
 ) -> Spot:
-    """A spot near the basket's corners that fits the wishes or, where there is none, comes close to them.
+    """A spot that fits the wishes or, where there is none, comes close to them: snug in a corner, or beside a box.
 
     Args:
         basket: Its inside: the ranges along x and y in metres.
@@ -65,7 +65,7 @@ def choose_spot(
         roomy = [c for c in fresh if all(_apart(c, other) >= gap for other in others)]
         gap *= 0.8
     good = roomy or fresh
-    return min(good, key=lambda c: _to_corner(c, basket) + rng.uniform(0.0, JITTER))
+    return min(good, key=lambda c: _looseness(c, others, basket) + rng.uniform(0.0, JITTER))
 
 
 def _draw(
@@ -83,6 +83,13 @@ def _draw(
 def _apart(a: Spot, b: Spot) -> float:
     """Free space between two boxes in metres, along the axis on which there is more of it."""
     return max(abs(a.x - b.x) - (a.size[0] + b.size[0]) / 2, abs(a.y - b.y) - (a.size[1] + b.size[1]) / 2)
+
+
+def _looseness(spot: Spot, others: Sequence[Spot], basket: tuple[tuple[float, float], tuple[float, float]]) -> float:
+    """How far the box is from being packed tightly, in metres: from a corner, or from the nearest other box."""
+    if not others:
+        return _to_corner(spot, basket)
+    return min(_to_corner(spot, basket) / 2 + _apart(spot, other) for other in others)
 
 
 def _to_corner(spot: Spot, basket: tuple[tuple[float, float], tuple[float, float]]) -> float:

@@ -18,7 +18,7 @@ from llm3.types import Action, Context, Entity, Feedback, Proposal
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.packing import Spot, Wishes, choose_spot
 
-FIRST_GAP, GAP_STEP, LARGEST_GAP = 0.012, 0.012, 0.045
+FIRST_GAP, GAP_STEP, LARGEST_GAP = 0.005, 0.015, 0.05
 """Free space between boxes in metres: the first guess, what a collision adds to it, and the most it asks for."""
 REACH_STEP = 0.01
 """After a spot was out of reach, the next ones are this much closer to the arm, in metres."""

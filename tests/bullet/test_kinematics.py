@@ -1,0 +1,129 @@
+"""Forward kinematics agrees with PyBullet, and the Jacobian with forward kinematics."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from branching_arm import branching_arm
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from llm3_bullet.clients import connect, quiet
+from llm3_bullet.kinematics import Kinematics
+from llm3_bullet.model import RobotModel
+from llm3_bullet.robots import panda
+
+ROBOTS = ("panda", "branching")
+QUICK = settings(deadline=None, max_examples=40)
+seeds = st.integers(0, 2**32 - 1)
+robots = st.sampled_from(ROBOTS)
+openings = st.floats(0.0, 0.06)
+
+
+@pytest.fixture(scope="module")
+def arms(tmp_path_factory):
+    descriptions = {"panda": panda(), "branching": branching_arm(tmp_path_factory.mktemp("urdf"))}
+    return {name: Kinematics(RobotModel(description)) for name, description in descriptions.items()}
+
+
+@pytest.fixture(scope="module")
+def in_pybullet(arms):
+    """The link frames that PyBullet finds, (L, 4, 4), for a robot's name, a configuration and an opening."""
+    with connect() as client:
+
+        def load(model):
+            with quiet():
+                return client.loadURDF(str(model.description.urdf), useFixedBase=True)
+
+        bodies = {name: load(arm.model) for name, arm in arms.items()}
+
+        def frames(name, q, opening):
+            model, body = arms[name].model, bodies[name]
+            for joint, position in zip(model.arm_joints, q, strict=True):
+                client.resetJointState(body, joint, position)
+            for joint in model.finger_joints:
+                client.resetJointState(body, joint, opening / 2)
+            found = np.tile(np.eye(4), (len(model.links), 1, 1))
+            for link in range(1, len(model.links)):
+                state = client.getLinkState(body, link - 1, computeForwardKinematics=True)
+                found[link, :3, 3] = state[4]
+                found[link, :3, :3] = np.reshape(client.getMatrixFromQuaternion(state[5]), (3, 3))
+            return found
+
+        yield frames
+
+
+def configurations(arm, seed, count):
+    return np.random.default_rng(seed).uniform(arm.model.low, arm.model.high, (count, arm.model.dof))
+
+
+@given(robots, seeds, openings)
+@QUICK
+def test_link_frames_are_pybullets(arms, in_pybullet, name, seed, opening):
+    (q,) = configurations(arms[name], seed, 1)
+    (frames,) = arms[name].link_frames(q[None], opening)
+    np.testing.assert_allclose(frames, in_pybullet(name, q, opening), atol=2e-6)  # PyBullet computes in part in float32
+
+
+@given(robots, seeds, st.integers(0, 9), openings)
+@QUICK
+def test_a_batch_is_its_configurations_one_by_one(arms, name, seed, count, opening):
+    arm, Q = arms[name], configurations(arms[name], seed, count)
+    frames = arm.link_frames(Q, opening)
+    assert frames.shape == (count, len(arm.model.links), 4, 4)
+    for q, alone in zip(Q, frames, strict=True):
+        np.testing.assert_allclose(alone, arm.link_frames(q[None], opening)[0], atol=1e-12)
+
+
+@given(robots, seeds)
+@QUICK
+def test_the_tool_is_the_tool_links_frame_at_any_opening(arms, name, seed):
+    arm, Q = arms[name], configurations(arms[name], seed, 3)
+    for opening in (0.0, 0.05):
+        np.testing.assert_allclose(arm.tool(Q), arm.link_frames(Q, opening)[:, arm.model.tool], atol=1e-12)
+
+
+@given(robots, seeds, openings)
+@QUICK
+def test_columns_are_frames_in_another_order(arms, name, seed, opening):
+    arm, Q = arms[name], configurations(arms[name], seed, 4)
+    columns = arm.link_columns(Q, opening)
+    np.testing.assert_array_equal(columns.transpose(3, 0, 2, 1), arm.link_frames(Q, opening)[:, :, :3])
+    points = np.array([[0.1, 0.2, 0.3], [0.0, -0.1, 0.0]])
+    placed = (np.column_stack([points, np.ones(2)]) @ columns[-1].reshape(4, -1)).reshape(2, 3, -1)
+    frames = arm.link_frames(Q, opening)[:, -1]
+    expected = points @ frames[:, :3, :3].swapaxes(1, 2) + frames[:, None, :3, 3]
+    np.testing.assert_allclose(placed.transpose(2, 0, 1), expected, atol=1e-12)
+
+
+@given(robots, seeds)
+@QUICK
+def test_the_jacobian_is_the_derivative_of_the_tool_pose(arms, name, seed):
+    arm, Q = arms[name], configurations(arms[name], seed, 2)
+    jacobian, step = arm.jacobian(Q), 1e-6
+    rotations = arm.tool(Q)[:, :3, :3]
+    for joint in range(arm.model.dof):
+        moved = np.eye(arm.model.dof)[joint] * step
+        rate = (arm.tool(Q + moved) - arm.tool(Q - moved)) / (2 * step)
+        spin = rate[:, :3, :3] @ rotations.swapaxes(1, 2)
+        angular = np.stack([spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], axis=1)
+        np.testing.assert_allclose(jacobian[:, :3, joint], rate[:, :3, 3], atol=1e-7)
+        np.testing.assert_allclose(jacobian[:, 3:, joint], angular, atol=1e-7)
+
+
+@given(robots, seeds)
+@QUICK
+def test_tool_and_jacobian_come_together_as_they_do_alone(arms, name, seed):
+    arm, Q = arms[name], configurations(arms[name], seed, 3)
+    tool, jacobian = arm.tool_and_jacobian(Q)
+    np.testing.assert_array_equal(tool, arm.tool(Q))
+    np.testing.assert_array_equal(jacobian, arm.jacobian(Q))
+
+
+@given(seeds, openings)
+@QUICK
+def test_frames_are_rigid(arms, seed, opening):
+    frames = arms["panda"].link_frames(configurations(arms["panda"], seed, 2), opening)
+    R = frames[..., :3, :3]
+    np.testing.assert_allclose(R @ R.swapaxes(-1, -2), np.broadcast_to(np.eye(3), R.shape), atol=1e-9)
+    np.testing.assert_array_equal(frames[..., 3, :], np.broadcast_to([0, 0, 0, 1], frames.shape[:-1]))

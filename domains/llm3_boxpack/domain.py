@@ -30,11 +30,23 @@ class BoxPack(Domain):
 
     def make(self, instance: Any, options: Options) -> Env:
         """A PyBullet world without a window."""
-        return self._make(instance, options, gui=False)
+        from llm3_boxpack.env import BoxpackEnv
+        from llm3_bullet.robots.panda import panda
+        from llm3_bullet.workcell import Workcell
+
+        wall_height = _wall_height(options["walls"])
+        return BoxpackEnv(instance, Workcell(panda()), wall_height)
 
     def make_in_window(self, instance: Any, options: Options) -> Env | None:
-        """A PyBullet world in its window."""
-        return self._make(instance, options, gui=True)
+        """A PyBullet world, with a second one in a window that plays what happens."""
+        from llm3_boxpack.window import WindowEnv
+        from llm3_bullet.clients import connect
+        from llm3_bullet.robots.panda import panda
+        from llm3_bullet.workcell import Workcell
+
+        wall_height = _wall_height(options["walls"])
+        client = connect(gui=True)
+        return WindowEnv(instance, Workcell(panda()), wall_height, client)
 
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
         """Pick and place each box in turn."""
@@ -53,14 +65,6 @@ class BoxPack(Domain):
         from llm3_boxpack.stand_in import reply
 
         return reply
-
-    def _make(self, instance: BoxpackInstance, options: Options, gui: bool) -> Env:
-        from llm3_boxpack.env import BoxpackEnv
-        from llm3_bullet.robots.panda import panda
-        from llm3_bullet.workcell import Workcell
-
-        wall_height = _wall_height(options["walls"])
-        return BoxpackEnv(instance, Workcell(panda(), gui), wall_height)
 
 
 def _wall_height(text: str) -> float:

@@ -29,6 +29,7 @@ from llm3_boxpack.manipulation import Manipulation
 from llm3_boxpack.release import surprises
 from llm3_boxpack.wording import describe, task_text
 from llm3_bullet.poses import as_matrix, as_pose
+from llm3_bullet.scene import Scene
 from llm3_bullet.workcell import Workcell
 
 CLEARANCE = 0.005
@@ -96,8 +97,8 @@ class BoxpackEnv(Env):
         goals, failure, stats = self._cell.touchdowns.goals(ways, start, rng)
         if failure:
             return failure
-        transit = self._cell.checker.view(self._manipulation.transit_scene(state))
-        opening = self._manipulation.transit_opening(state)
+        scene = self.scene(state)
+        transit = self._cell.checker.view(scene)
         return MotionProblem(
             start,
             goals,
@@ -106,7 +107,7 @@ class BoxpackEnv(Env):
             valid=lambda Q: transit.valid(Q, CLEARANCE),
             resolution=transit.resolution(CLEARANCE),
             explain=lambda q: transit.contacts(q, CLEARANCE),
-            before=() if state.held else (Event(EventKind.GRIPPER, opening=opening),),
+            before=() if state.held else (Event(EventKind.GRIPPER, opening=scene.opening),),
             stats=stats,
         )
 
@@ -125,6 +126,10 @@ class BoxpackEnv(Env):
         settled = self._cell.settler.settle((*self._furniture, *self._manipulation.movable(released)))
         after = State(settled, motion.end)
         return Transition(after, surprises(released, after.poses))
+
+    def scene(self, state: State) -> Scene:
+        """Everything that surrounds the robot in a state."""
+        return self._manipulation.transit_scene(state)
 
     def goal(self, state: State) -> GoalStatus:
         """Every box in the basket with its whole footprint."""

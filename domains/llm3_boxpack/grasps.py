@@ -15,6 +15,8 @@ OPENING_MARGIN = 0.008
 ABOVE_CENTER = 0.012
 """The tool centre point is this far above the box's centre, in metres: the palm then clears neighbours of the same
 height."""
+PALM_GAP = 0.005
+"""The palm stays this far above a tall box, in metres: it is then taken higher up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,13 +44,17 @@ def top_grasps(center: NDArray[np.float64], standing: Stance, gripper: ParallelG
     pairs = sorted((0, 1), key=lambda side: widths[side])
     if widths[pairs[0]] < widths[pairs[1]]:
         pairs = pairs[:1]
-    position = center + np.array((0.0, 0.0, min(ABOVE_CENTER, standing.extent[2] / 4)))
+    position = center + np.array((0.0, 0.0, _above_center(standing.extent[2], gripper)))
     return tuple(
         Grasp(_tool_pose(position, standing.yaw + side * np.pi / 2 + turn, gripper), widths[side])
         for side in pairs
         if widths[side] + OPENING_MARGIN <= gripper.max_opening
         for turn in (0.0, np.pi)
     )
+
+
+def _above_center(height: float, gripper: ParallelGripper) -> float:
+    return max(min(ABOVE_CENTER, height / 4), height / 2 + PALM_GAP - gripper.palm_height)
 
 
 def _tool_pose(position: NDArray[np.float64], closing: float, gripper: ParallelGripper) -> NDArray[np.float64]:

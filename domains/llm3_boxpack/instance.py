@@ -9,8 +9,12 @@ from llm3_boxpack.rectangles import Rectangle
 
 TRAY_THICKNESS = 0.01
 """Thickness in metres of the plate that is the basket's floor."""
-LARGEST = 2.0
-"""No length or coordinate in an instance is larger, in metres."""
+TABLE = Rectangle((0.5, 0.0), (2.0, 3.0))
+"""The table's top, in metres: it reaches farther than the arm on all sides."""
+WALLS = ("basket_wall_front", "basket_wall_back", "basket_wall_right", "basket_wall_left")
+RESERVED = ("table", "basket", *WALLS, "itself")
+"""Names that failures use for what is no box."""
+ON_TABLE = "such that all of it is on the table, x -0.5 to 1.5 m and y -1.5 to 1.5 m"
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,15 @@ class BoxSpec:
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():
-            raise ValueError(f"a box's name must be letters, digits and underscores, not {self.name!r}")
+            raise ValueError(f"a box's name must be letters, digits and underscores, no digit first, not {self.name!r}")
+        if self.name in RESERVED:
+            raise ValueError(f"a box cannot be called {self.name!r}; these names are taken: {', '.join(RESERVED)}")
         if not all(0.005 <= side <= 0.5 for side in self.size):
             raise ValueError(f"the sides of {self.name} must be 0.005 to 0.5 m, not {list(self.size)}")
-        if not all(abs(x) <= LARGEST for x in self.position) or not isfinite(self.yaw):
-            raise ValueError(f"the position of {self.name} must be within {LARGEST} m, not {list(self.position)}")
+        if not isfinite(self.yaw):
+            raise ValueError(f"the yaw of {self.name} must be a finite number of radians, not {self.yaw}")
+        if not _on_table(self.footprint):
+            raise ValueError(f"the position of {self.name} must be {ON_TABLE}, not {list(self.position)}")
 
     @property
     def footprint(self) -> Rectangle:
@@ -49,10 +57,10 @@ class BasketSpec:
     """Full side lengths of its inside along x and y."""
 
     def __post_init__(self) -> None:
-        if not all(0.02 <= side <= LARGEST for side in self.size):
-            raise ValueError(f"the basket's sides must be 0.02 to {LARGEST} m, not {list(self.size)}")
-        if not all(abs(x) <= LARGEST for x in self.center):
-            raise ValueError(f"the basket's center must be within {LARGEST} m, not {list(self.center)}")
+        if not all(0.02 <= side <= 2.0 for side in self.size):
+            raise ValueError(f"the basket's sides must be 0.02 to 2 m, not {list(self.size)}")
+        if not _on_table(self.area):
+            raise ValueError(f"the basket's center must be {ON_TABLE}, not {list(self.center)}")
 
     @property
     def area(self) -> Rectangle:
@@ -76,3 +84,7 @@ class BoxpackInstance:
                     raise ValueError(f"two boxes are called {box.name}")
                 if box.footprint.overlaps(other.footprint):
                     raise ValueError(f"{other.name} and {box.name} start in one another")
+
+
+def _on_table(area: Rectangle) -> bool:
+    return all(map(isfinite, area.center)) and TABLE.overhang(area) == 0.0

@@ -9,12 +9,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from llm3.types import Pose
-from llm3_boxpack.instance import TRAY_THICKNESS, BasketSpec
+from llm3_boxpack.instance import TABLE, TRAY_THICKNESS, WALLS, BasketSpec
 from llm3_boxpack.rectangles import Rectangle
 from llm3_bullet.scene import Box
 
-TABLE_CENTER, TABLE_SIZE = (0.5, 0.0), (2.0, 3.0)
-"""The table reaches farther than the arm on all sides, in metres."""
 TABLE_THICKNESS = 0.05
 WALL_THICKNESS = 0.004
 UPRIGHT = np.cos(np.radians(5.0))
@@ -24,21 +22,24 @@ UPRIGHT = np.cos(np.radians(5.0))
 def furniture(basket: BasketSpec, wall_height: float) -> tuple[Box, ...]:
     """The table, the basket's floor and, if they have a height, its walls."""
     (x, y), (dx, dy) = basket.center, basket.size
-    table = Box("table", (*TABLE_SIZE, TABLE_THICKNESS), Pose((*TABLE_CENTER, -TABLE_THICKNESS / 2)), fixed=True)
+    table = Box("table", (*TABLE.size, TABLE_THICKNESS), Pose((*TABLE.center, -TABLE_THICKNESS / 2)), fixed=True)
     tray = Box("basket", (dx, dy, TRAY_THICKNESS), Pose((x, y, TRAY_THICKNESS / 2)), fixed=True)
     if not wall_height:
         return table, tray
     z, t = wall_height / 2, WALL_THICKNESS
-    walls = {
-        "basket_wall_front": ((t, dy + 2 * t), (x - (dx + t) / 2, y)),
-        "basket_wall_back": ((t, dy + 2 * t), (x + (dx + t) / 2, y)),
-        "basket_wall_right": ((dx, t), (x, y - (dy + t) / 2)),
-        "basket_wall_left": ((dx, t), (x, y + (dy + t) / 2)),
-    }
+    walls = (
+        ((t, dy + 2 * t), (x - (dx + t) / 2, y)),
+        ((t, dy + 2 * t), (x + (dx + t) / 2, y)),
+        ((dx, t), (x, y - (dy + t) / 2)),
+        ((dx, t), (x, y + (dy + t) / 2)),
+    )
     return (
         table,
         tray,
-        *(Box(name, (*size, wall_height), Pose((*center, z)), fixed=True) for name, (size, center) in walls.items()),
+        *(
+            Box(name, (*size, wall_height), Pose((*center, z)), fixed=True)
+            for name, (size, center) in zip(WALLS, walls, strict=True)
+        ),
     )
 
 

@@ -13,7 +13,9 @@ SLID = 0.005
 """A box that moved sideways by more than this, in metres, has slid."""
 TURNED = 0.05
 """A box that turned about the vertical by more than this, in radians, has turned."""
-TILTED = np.radians(10.0)
+LEANS = np.radians(5.0)
+"""A box that tilted by more than this, in radians, leans: it can no longer be taken from above."""
+TOPPLED = np.radians(45.0)
 """A box that tilted by more than this, in radians, has toppled."""
 
 
@@ -26,8 +28,11 @@ def _surprise(name: str, before: Pose, after: Pose) -> str:
     old, new = as_matrix(before), as_matrix(after)
     turn = new[:3, :3] @ old[:3, :3].T
     place = f"and is at ({after.position[0]:.3f}, {after.position[1]:.3f}) now"
-    if np.arccos(np.clip(turn[2, 2], -1.0, 1.0)) > TILTED:
+    tilt = float(np.arccos(np.clip(turn[2, 2], -1.0, 1.0)))
+    if tilt > TOPPLED:
         return f"{name} toppled {place}"
+    if tilt > LEANS:
+        return f"{name} leans by {np.degrees(tilt):.0f} degrees {place}"
     slid = float(np.linalg.norm(new[:2, 3] - old[:2, 3]))
     angle = float(np.arctan2(turn[1, 0], turn[0, 0]))
     if slid > SLID:

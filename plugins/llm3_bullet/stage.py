@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from time import sleep
 
 import numpy as np
@@ -44,7 +45,7 @@ class Stage:
         client: BulletClient,
         model: RobotModel,
         colors: Mapping[str, Color],
-        camera: Camera = Camera(),  # noqa: B008  # frozen
+        camera: Camera = Camera(),
         pause: Callable[[float], None] = sleep,
     ) -> None:
         """Set the stage.
@@ -101,7 +102,7 @@ class Stage:
                 elif event.kind is EventKind.DETACH:
                     self._held = None
             waypoints = np.array(segment.waypoints)
-            for a, b in zip(waypoints, waypoints[1:], strict=False):
+            for a, b in pairwise(waypoints):
                 count = max(1, int(np.ceil(np.abs(b - a).max() / step)))
                 for t in np.linspace(0.0, 1.0, count + 1)[1:]:
                     self._pose_robot(a + t * (b - a))
@@ -125,8 +126,10 @@ class Stage:
         )
         return np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)[:, :, :3]
 
-    def close(self) -> None:
-        """Close the window. Calling it twice does no harm."""
+    def close(self, last_look: float = 0.0) -> None:
+        """Close the window after so many seconds. Calling it twice does no harm."""
+        if self._client.is_open:
+            self._pause(last_look)
         self._client.close()
 
     def _make(self, box: Box) -> int:

@@ -127,9 +127,10 @@ class TouchdownPlanner:
             for view in (down, up):
                 free = view.valid(samples, allowed)
                 if not free.all():
-                    contacts = view.contacts(samples[int(np.argmin(free))], allowed)
+                    yield view.contacts(samples[int(np.argmin(free))], allowed)  # () where a joint limit is in the way
                     break
-            yield contacts or self._goal(option, rising)
+            else:
+                yield self._goal(option, rising)
 
     def _samples(self, line: Array) -> Array:
         """The straight piece at the step of collision tests, joined linearly between its waypoints."""

@@ -15,19 +15,18 @@ from llm3_bullet.touchdown import TouchdownPlanner
 class Workcell:
     """What a domain needs to plan with one robot. Whatever it keeps is a cache: answers depend on questions alone."""
 
-    def __init__(self, description: RobotDescription, gui: bool = False) -> None:
+    def __init__(self, description: RobotDescription) -> None:
         """Start the simulators and load the robot.
 
         Args:
             description: The robot.
-            gui: Whether to show the robot's world in a window.
 
         Raises:
             MissingDependency: PyBullet is not installed.
         """
         self.model = RobotModel(description)
         self.kinematics = Kinematics(self.model)
-        self._clients = (connect(gui), connect())  # the robot among boxes, and boxes that fall
+        self._clients = (connect(), connect())  # the robot among boxes, and boxes that fall
         self.checker = CollisionChecker(self._clients[0], self.model, self.kinematics)
         self.settler = Settler(self._clients[1])
         self.inverse = InverseKinematics(self.kinematics)

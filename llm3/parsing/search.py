@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from llm3.parsing.answers import Answer, answers, best
-from llm3.parsing.mending import mended, without_quotes_around_calls
+from llm3.parsing.mending import mended
 from llm3.parsing.reader import Reading, Unreadable, read
 
 # Each bracket is tried as the start of an answer, and a failed try is paid from this budget, in characters. Chatter
@@ -44,9 +44,8 @@ def _best(text: str) -> Answer | None:
 
 
 def _best_of_mended(text: str) -> Answer | None:
-    for mend in (without_quotes_around_calls, mended):
-        other, repairs = mend(text)
-        answer = _best(other) if other != text else None
+    for other, repairs in mended(text):
+        answer = _best(other)
         if answer is not None and answer.items is not None:
             return replace(answer, repairs=(*repairs, *answer.repairs))
     return None

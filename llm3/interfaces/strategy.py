@@ -9,9 +9,9 @@ from dataclasses import dataclass
 class Strategy:
     """How the model is asked: a Jinja template inside an installed package.
 
-    The template sees the fields of :class:`llm3.types.Context` and starts each chat message with a line
-    ``=== system ===``, ``=== user ===`` or ``=== assistant ===``. It may include any file of its own package as
-    ``<package>/<file>`` and the shipped partials as ``llm3_templates/partials/<file>``.
+    The template sees the fields of :class:`llm3.types.Context` and writes each chat message between
+    ``{% call message("system") %}`` (or ``"user"``, or ``"assistant"``) and ``{% endcall %}``. It may include any file
+    of its own package as ``<package>/<file>`` and the shipped partials as ``llm3_templates/partials/<file>``.
     """
 
     package: str

@@ -73,7 +73,9 @@ class RunEnded:
 
 
 RunEvent = RunStarted | PromptSent | ReplyReceived | ReplyRead | ActionTried | AttemptEnded | RunEnded
+"""Anything that an observer is told."""
 Observer = Callable[[RunEvent], None]
+"""Is called with each event, in order."""
 
 
 def nobody(_: RunEvent) -> None:

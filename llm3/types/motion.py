@@ -16,8 +16,13 @@ from llm3.types.stats import Stats
 Vector = NDArray[np.float64]
 """A configuration, shape (dof,), or several of them, shape (N, dof)."""
 Mask = NDArray[np.bool_]
+"""One verdict for each configuration, shape (N,)."""
 Waypoints = tuple[tuple[float, ...], ...]
 """Configurations, one after another, joined by straight lines in joint space."""
+
+
+def _no_contacts(_: Vector) -> tuple[Contact, ...]:
+    return ()
 
 
 class EventKind(str, Enum):
@@ -98,7 +103,7 @@ class MotionProblem:
     """Takes configurations (N, dof), answers which of them are free, (N,)."""
     resolution: Vector
     """Shape (dof,). Two neighbouring samples of an edge differ by Δq with Σ|Δq_j|/resolution_j ≤ 1."""
-    explain: Callable[[Vector], tuple[Contact, ...]] = lambda _: ()
+    explain: Callable[[Vector], tuple[Contact, ...]] = field(default=_no_contacts)
     """Takes one configuration (dof,), answers what touches what there, the deepest first."""
     label: str = "transit"
     """What the path is for; it names the path's segment in the plan."""

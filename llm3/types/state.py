@@ -15,6 +15,7 @@ QUATERNION_DECIMALS = 5
 """A quaternion's components are half-angles: 1e-5 keeps rotations well within 1e-4 rad."""
 
 Fact = bool | int | float | str
+"""The value of a fact: JSON-safe, and equal only to itself."""
 
 
 def rounded(values: Iterable[float], decimals: int) -> tuple[float, ...]:

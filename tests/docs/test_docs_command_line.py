@@ -1,0 +1,68 @@
+from __future__ import annotations
+
+import dataclasses
+import importlib.util
+import json
+
+import pytest
+from docs_pages import DOCS, page, table
+
+from llm3.cli.main import COMMANDS, build_parser, main
+from llm3.errors import LLM3Error, UsageError
+from llm3_http.address import OPENAI
+from llm3_http.settings import HttpSettings
+
+
+def command_line_script():
+    spec = importlib.util.spec_from_file_location("docs_command_line", DOCS / "command_line.py")
+    assert spec
+    assert spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_page_has_the_live_help_of_every_command():
+    text = page("command-line")
+    assert command_line_script().with_help(text) == text, "run docs/command_line.py"
+    for command in COMMANDS:
+        assert build_parser(command).format_help() in text
+
+
+def test_the_exit_codes_are_those_of_the_program():
+    codes = {row[0] for row in table(page("command-line"), "Exit codes").rows}
+    assert codes == {"0", "1", str(UsageError.exit_code), str(LLM3Error.exit_code), "130"}
+
+
+def test_the_json_object_has_the_documented_fields(corridor, capsys):
+    assert main(["--domain", "corridor", "--json", "--quiet"]) == 0
+    assert set(json.loads(capsys.readouterr().out)) == set(table(page("command-line"), "Streams").names)
+
+
+@pytest.mark.parametrize(
+    ("limit", "fields"),
+    [
+        ("requests for one completion", {"max_attempts": "5"}),
+        ("wait before the first retry", {"first_wait": "1 s", "longest_wait": "30 s"}),
+        ("to connect", {"connect_timeout": "10 s"}),
+        ("to answer one request", {"read_timeout": "300 s"}),
+        ("one completion, all requests and waits together", {"deadline": "900 s"}),
+        ("length of an answer", {"max_body": "4,000,000"}),
+    ],
+)
+def test_the_limits_of_the_http_backend_are_its_defaults(limit, fields):
+    (shown,) = [
+        row[1]
+        for row in table(page("command-line"), "Environment variables of the http backend", "limit").rows
+        if row[0] == limit
+    ]
+    defaults = {f.name: f.default for f in dataclasses.fields(HttpSettings)}
+    for name, value in fields.items():
+        assert value in shown
+        assert float(value.replace(",", "").split()[0]) == defaults[name]
+
+
+def test_the_variables_of_the_http_backend_are_documented():
+    shown = table(page("command-line"), "Environment variables of the http backend", "variable")
+    assert shown.names == ("LLM3_BASE_URL", "LLM3_API_KEY", "OPENAI_API_KEY")
+    assert OPENAI in shown.rows[0][1]

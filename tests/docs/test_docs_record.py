@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import dataclasses
+import json
+
+import pytest
+from docs_pages import names, page, table, tables
+
+from llm3 import types
+from llm3.assembly import RunConfig
+from llm3.cli.main import main
+from llm3.interfaces import Joint
+from llm3.records import PlanFile, RunFile
+
+STRUCTURES = {
+    "run.json": RunFile,
+    "config": RunConfig,
+    "stats": types.Stats,
+    "messages": types.Message,
+    "completion": types.Completion,
+    "proposal": types.Proposal,
+    "what is no valid action": types.Rejected,
+    "outcome": types.Outcome,
+    "failure": types.Failure,
+    "contact": types.Contact,
+    "goal": types.GoalStatus,
+    "feedback": types.Feedback,
+    "remark": types.Remark,
+    "plan.json": PlanFile,
+    "joint": Joint,
+    "state": types.State,
+    "pose": types.Pose,
+    "held": types.Held,
+    "step": types.PlannedAction,
+    "action": types.Action,
+    "motion": types.Motion,
+    "segment": types.Segment,
+    "event": types.Event,
+}
+FILES, EVENTS = "The record of a run", "events.jsonl"
+
+
+@pytest.mark.parametrize(("heading", "structure"), STRUCTURES.items(), ids=STRUCTURES)
+def test_every_field_of_the_record_is_documented_in_order(heading, structure):
+    assert table(page("record"), heading).names == tuple(field.name for field in dataclasses.fields(structure))
+
+
+def test_no_table_is_of_something_else():
+    assert {t.heading for t in tables(page("record"))} == {*STRUCTURES, FILES, EVENTS}
+
+
+def test_every_meaning_is_said():
+    for t in tables(page("record")):
+        assert all(all(cell for cell in row) for row in t.rows), t.heading
+
+
+def test_a_run_writes_the_documented_files_and_events(corridor, capsys):
+    assert main(["--domain", "corridor", "--out", "record", "--quiet"]) == 0
+    folder = corridor / "record"
+    assert {file.name for file in folder.iterdir()} == set(table(page("record"), FILES).names)
+    first, *lines = [json.loads(line) for line in (folder / "events.jsonl").read_text().splitlines()]
+    assert json.dumps(first, separators=(",", ":")) in page("record")
+    written = {line["event"]: set(line) - {"event", "time"} for line in lines}
+    assert written == {row[0].strip("`"): set(names(row[1])) for row in table(page("record"), EVENTS).rows}
+
+
+def test_the_formats_are_named():
+    from llm3.records import plan, recorder
+
+    for name in (recorder.RUN_FORMAT, recorder.EVENTS_FORMAT, plan.PLAN_FORMAT):
+        assert name in page("record")

@@ -1,5 +1,6 @@
 """Task and motion planning with a language model that reasons about motion failures."""
 
+from llm3.assembly import RunConfig, assemble
 from llm3.errors import LLM3Error
 from llm3.hookspecs import hookimpl
 from llm3.interfaces import (
@@ -32,7 +33,9 @@ __all__ = [
     "PlannerSettings",
     "Prompt",
     "Registry",
+    "RunConfig",
     "Strategy",
+    "assemble",
     "hookimpl",
     "solve",
 ]

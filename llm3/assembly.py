@@ -46,10 +46,7 @@ class RunConfig:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "options", FrozenDict(self.options))
-        if self.max_llm_calls < 1:
-            raise UsageError(f"the number of model calls must be at least 1, not {self.max_llm_calls}.")
-        if self.trace_size < 0:
-            raise UsageError(f"the trace size must be 0 or more, not {self.trace_size}.")
+        Budget(self.max_llm_calls, self.trace_size)  # refuses what cannot be
         if self.llm is None:
             object.__setattr__(self, "llm", "http" if self.model else "offline")
         elif self.model and self.llm != "http":
@@ -123,7 +120,7 @@ def choose_instance(domain: Domain, setting: str | None, seed: int) -> Any:
     """
     setting = setting or domain.default_setting
     if setting not in domain.settings:
-        raise UnknownName(f"setting of domain {domain.name!r}", setting, domain.settings)
+        raise UnknownName("setting", setting, domain.settings, owner=f"domain {domain.name!r}")
     return domain.instance(setting, seed)
 
 
@@ -136,10 +133,10 @@ def choose_options(domain: Domain, given: Mapping[str, str]) -> Options:
     known = {option.name: option for option in domain.options}
     for name, value in given.items():
         if name not in known:
-            raise UnknownName(f"option of domain {domain.name!r}", name, known)
+            raise UnknownName("option", name, known, owner=f"domain {domain.name!r}")
         choices = known[name].choices
         if choices and value not in choices:
-            raise UnknownName(f"value of option {name!r}", value, choices)
+            raise UnknownName("value", value, choices, owner=f"option {name!r}")
     return FrozenDict({name: given.get(name, option.default) for name, option in known.items()})
 
 
@@ -205,5 +202,9 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
             regions=domain.regions(instance) or FrozenDict(),
         ),
     )
-    problem = open_problem(domain, instance, config.options, window)
+    try:
+        problem = open_problem(domain, instance, config.options, window)
+    except BaseException:
+        backend.close()
+        raise
     return Run(config, problem, skeleton, prompt, backend, planner, feedback)

@@ -27,6 +27,10 @@ class LLM3Error(Exception):
 
     exit_code = 3
 
+    def __init__(self, text: str) -> None:
+        """Take the sentence; white space in it, such as that of a library's message, is folded into one line."""
+        super().__init__(" ".join(text.split()))
+
 
 class UsageError(LLM3Error):
     """The command line or the call asks for something that is not there."""
@@ -37,20 +41,22 @@ class UsageError(LLM3Error):
 class UnknownName(UsageError):
     """No thing of this kind has this name."""
 
-    def __init__(self, kind: str, name: str, known: Iterable[str], remark: str = "") -> None:
+    def __init__(self, kind: str, name: str, known: Iterable[str], owner: str = "", remark: str = "") -> None:
         """Say what was asked for, what comes close to it and what there is.
 
         Args:
-            kind: What the name should have named, such as ``"domain"``.
+            kind: What the name should have named, such as ``"setting"``.
             name: The unknown name.
             known: The valid names.
+            owner: Whose name it should be, such as ``"domain 'boxpack'"``.
             remark: A further sentence, such as which plugins failed to load.
         """
         self.kind, self.name, self.known = kind, name, tuple(sorted(known))
         close = difflib.get_close_matches(name, self.known, n=3)
         guess = f"; did you mean {' or '.join(map(repr, close))}?" if close else "."
         valid = ", ".join(self.known) or "none"
-        text = f"unknown {kind} {name!r}{guess} Known: {valid}."
+        of = f" of {owner}" if owner else ""
+        text = f"unknown {kind} {name!r}{of}{guess} Known: {valid}."
         super().__init__(f"{text} {remark}" if remark else text)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -37,7 +39,7 @@ def pretty(value: Any) -> str:
 
 def to_builtins(value: Any) -> Any:
     """Dicts, lists, strings, numbers, booleans and None."""
-    return msgspec.to_builtins(value, enc_hook=_plain, str_keys=True)
+    return msgspec.json.decode(msgspec.json.encode(value, enc_hook=_plain))
 
 
 def loads(text: str | bytes, type_: type[T], source: str) -> T:
@@ -52,13 +54,38 @@ def loads(text: str | bytes, type_: type[T], source: str) -> T:
         InputError: One line that names the source, the field and what is wrong with it.
     """
     try:
+        text = text.decode() if isinstance(text, bytes) else text
         value = msgspec.json.decode(text, type=type_)
-        extra = _unknown_field(msgspec.json.decode(text), to_builtins(value), "$")
-    except (msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as error:
-        raise InputError(f"{source}: {error}") from error
-    if extra:
-        raise InputError(f"{source}: {extra}")
+        _set_defaults(value)
+        wrong = _unknown_field(msgspec.json.decode(text), to_builtins(value), "$")
+    except (UnicodeDecodeError, UnicodeEncodeError) as error:
+        raise InputError(f"{source}: not UTF-8 text: {error.reason} at byte {error.start}") from error
+    except RecursionError as error:
+        raise InputError(f"{source}: nested too deeply") from error
+    except msgspec.MsgspecError as error:
+        wrong = str(error)
+    if wrong:
+        raise InputError(f"{source}: {wrong}")
     return value
+
+
+def _set_defaults(value: Any) -> None:
+    """Set the fields that were not in the text.
+
+    msgspec leaves them to the class's defaults and writes only what an instance holds itself: without this, the text
+    of a value that was read would differ from that of an equal one that was made.
+    """
+    if is_dataclass(value):
+        for field in fields(value):
+            child = getattr(value, field.name)
+            object.__setattr__(value, field.name, child)
+            _set_defaults(child)
+    elif isinstance(value, Mapping):
+        for child in value.values():
+            _set_defaults(child)
+    elif isinstance(value, (list, tuple)):
+        for child in value:
+            _set_defaults(child)
 
 
 def _unknown_field(raw: Any, known: Any, where: str) -> str:

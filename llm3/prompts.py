@@ -43,13 +43,14 @@ class Prompt:
             environment.filters.update(usage=usage, value=value)
             self._template = environment.get_template(self._name)
         except (ImportError, ValueError, jinja2.TemplateError) as error:
-            raise PluginError(f"prompt template {self._name!r} cannot be loaded: {error}") from error
+            raise PluginError(f"prompt template {self._name!r} cannot be loaded: {_located(error)}") from error
 
     def render(self, context: Context) -> tuple[Message, ...]:
         """The messages for this context.
 
         Raises:
-            PluginError: The template uses a name that there is not, or writes no message.
+            PluginError: The template uses a name that there is not, fails otherwise, writes no message, or writes
+                text outside of its messages, which no model would see.
         """
         messages: list[Message] = []
 
@@ -61,12 +62,19 @@ class Prompt:
 
         fields: dict[str, Any] = {name: getattr(context, name) for name in context.__dataclass_fields__}
         try:
-            self._template.render(**fields, message=message)
-        except jinja2.TemplateError as error:
-            raise PluginError(f"prompt template {self._name!r} cannot be rendered: {error}") from error
+            outside = self._template.render(**fields, message=message).strip()
+        except Exception as error:  # a template may raise whatever its expressions raise
+            raise PluginError(f"prompt template {self._name!r} cannot be rendered: {_located(error)}") from error
+        if outside:
+            raise PluginError(f"prompt template {self._name!r} writes text outside of its messages: {outside[:60]!r}.")
         if not messages:
             raise PluginError(f"prompt template {self._name!r} writes no message: use {{% call message(role) %}}.")
         return tuple(messages)
+
+
+def _located(error: Exception) -> str:
+    place = f" (line {error.lineno})" if isinstance(error, jinja2.TemplateSyntaxError) else ""
+    return f"{error}{place}"
 
 
 def usage(schema: ActionSchema) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import metadata
-from types import SimpleNamespace
 from typing import Any, TypeVar
 
 import pluggy
@@ -86,7 +85,7 @@ class Registry:
                 registry.register(entry_point.load(), plugin)
             except LLM3Error as error:
                 registry._remember(plugin, str(error))
-            except Exception as error:  # whatever a stranger's import raises must not kill the program
+            except (Exception, SystemExit) as error:  # whatever a stranger's import raises must not kill the program
                 registry._remember(plugin, f"{type(error).__name__}: {error}")
         return registry
 
@@ -98,27 +97,32 @@ class Registry:
             name: Where it comes from, for messages and ``llm3 list``.
 
         Raises:
-            PluginError: It implements no hook or an unknown one, answers with something that is not a dict of
-                factories, or claims a name that another plugin has.
+            PluginError: It is there already, implements no hook or an unknown one or one with wrong arguments,
+                answers with something that is not a dict of factories, or claims a name that another plugin has.
         """
-        if isinstance(plugin, Mapping):
-            plugin = SimpleNamespace(**plugin)
-        self._manager.register(plugin, name)
+        if self._manager.has_plugin(name) or self._manager.is_registered(plugin):
+            raise PluginError(f"plugin {name} is registered twice.")
         try:
+            self._manager.register(plugin, name)
             found = self._read(plugin, name)
-        except BaseException:
-            self._manager.unregister(plugin)
+        except BaseException as error:
+            if self._manager.is_registered(plugin):
+                self._manager.unregister(plugin)
+            if isinstance(error, pluggy.PluginValidationError):
+                raise PluginError(f"plugin {name} does not fit the hooks: {error}") from error
             raise
         self._registrations += found
 
     def _read(self, plugin: object, name: str) -> list[Registration]:
         known = ", ".join(sorted(HOOKS.values()))
+        callers = self._manager.get_hookcallers(plugin) or ()
+        unknown = ", ".join(repr(caller.name) for caller in callers if not caller.has_spec())
         try:
             self._manager.check_pending()
         except pluggy.PluginValidationError as error:
-            raise PluginError(f"plugin {name} implements an unknown hook: {error}. Hooks: {known}.") from error
+            raise PluginError(f"plugin {name} implements an unknown hook, {unknown}. Hooks: {known}.") from error
         found: list[Registration] = []
-        implemented = [caller.name for caller in self._manager.get_hookcallers(plugin) or ()]
+        implemented = [caller.name for caller in callers]
         if not implemented:
             raise PluginError(f"plugin {name} implements no hook; mark a function with @hookimpl. Hooks: {known}.")
         for kind, hook in HOOKS.items():
@@ -157,15 +161,19 @@ class Registry:
                     raise PluginError(f"{registration.plugin}: {kind} {name!r} made a {got}, not a {wanted}.")
                 return made
         failed = "; ".join(f"{b.plugin} ({b.reason})" for b in self.broken)
-        raise UnknownName(kind, name, self.names(kind), f"Failed to load: {failed}." if failed else "")
+        raise UnknownName(kind, name, self.names(kind), remark=f"Failed to load: {failed}." if failed else "")
 
     def domain(self, name: str) -> Domain:
         """The domain of this name.
 
         Raises:
             UnknownName: There is none; the message has close matches and the plugins that failed to load.
+            PluginError: What was made is no domain, or has another name.
         """
-        return self._make(Domain, "domain", name)  # type: ignore[type-abstract]  # isinstance is all it is used for
+        domain = self._make(Domain, "domain", name)  # type: ignore[type-abstract]  # isinstance is all it is used for
+        if domain.name != name:
+            raise PluginError(f"domain {name!r} is registered under another name than its own, {domain.name!r}.")
+        return domain
 
     def strategy(self, name: str) -> Strategy:
         """The prompt strategy of this name; raises like :meth:`domain`."""

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
+from llm3.errors import UsageError
 from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner
 from llm3.parsing import parse_reply
 from llm3.prompts import Prompt
@@ -42,6 +43,12 @@ class Budget:
     """The paper's cap on model calls."""
     trace_size: int = 5
     """The paper's k: how many earlier attempts the model is told of."""
+
+    def __post_init__(self) -> None:
+        if self.max_llm_calls < 1:
+            raise UsageError(f"the number of model calls must be at least 1, not {self.max_llm_calls}.")
+        if self.trace_size < 0:
+            raise UsageError(f"the trace size must be 0 or more, not {self.trace_size}.")
 
 
 def solve(
@@ -97,18 +104,18 @@ def solve(
 
         proposal = parse_reply(completion.text, env.schemas, env.objects, skeleton)
         observer(ReplyRead(number, proposal))
-        if isinstance(proposal, Failure):
+        if isinstance(proposal, Failure):  # an attempt with no actions
             stats += Stats(unreadable_replies=1)
-            goal = env.goal(start)
-            attempt = Attempt(number, goal, unreadable=proposal)
+            rolled = roller.rollout(start, ())
+            attempt = Attempt(number, env.goal(rolled.state), unreadable=proposal)
         else:
             rolled = roller.rollout(start, proposal.actions, _teller(observer, number))
-            goal = env.goal(rolled.state)
-            attempt = Attempt(number, goal, proposal, outcomes=rolled.outcomes)
-            solved, plan = goal.achieved, rolled.plan
+            attempt = Attempt(number, env.goal(rolled.state), proposal, outcomes=rolled.outcomes)
+        goal, plan = attempt.goal, rolled.plan
+        solved = goal.achieved
         attempts.append(attempt)
         words = None if solved else feedback.synthesize(attempt)
-        trace = trace.add(words)
+        trace = trace.add(attempt, words)
         observer(AttemptEnded(attempt, words, stats + roller.stats))
     result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start)
     observer(RunEnded(result))

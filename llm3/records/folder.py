@@ -10,14 +10,23 @@ from llm3.errors import LLM3Error, OutputExists
 RECORD_FILES = ("run.json", "events.jsonl", "plan.json")
 
 
-def default_folder(name: str, now: datetime, parent: Path = Path("runs")) -> Path:
-    """A folder under `parent` that does not exist yet, named by the time and by what was run."""
+def create_default_folder(name: str, now: datetime, parent: Path = Path("runs")) -> Path:
+    """Make a new folder under `parent`, named by the time and by what is run; two runs never share one.
+
+    Raises:
+        LLM3Error: It cannot be made.
+    """
     stem = f"{now:%Y%m%d-%H%M%S}-{name}"
     folder, count = parent / stem, 1
-    while folder.exists():
-        count += 1
-        folder = parent / f"{stem}-{count}"
-    return folder
+    while True:
+        try:
+            folder.mkdir(parents=True)
+            return folder
+        except FileExistsError:
+            count += 1
+            folder = parent / f"{stem}-{count}"
+        except OSError as error:
+            raise _unwritable(folder, error) from error
 
 
 def create_folder(folder: Path, force: bool = False) -> Path:
@@ -34,5 +43,9 @@ def create_folder(folder: Path, force: bool = False) -> Path:
         for name in RECORD_FILES:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:
-        raise LLM3Error(f"the output folder '{folder}' cannot be written: {error.strerror or error}.") from error
+        raise _unwritable(folder, error) from error
     return folder
+
+
+def _unwritable(folder: Path, error: OSError) -> LLM3Error:
+    return LLM3Error(f"the output folder '{folder}' cannot be written: {error.strerror or error}.")

@@ -15,7 +15,7 @@ from llm3.assembly import Run, RunConfig
 from llm3.errors import LLM3Error
 from llm3.jsonio import dumps, pretty, to_builtins
 from llm3.records.plan import plan_file
-from llm3.types import AttemptEnded, FrozenDict, RunEnded, RunEvent, Stats
+from llm3.types import AttemptEnded, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
 
 RUN_FORMAT = "llm3-run/1"
 EVENTS_FORMAT = "llm3-events/1"
@@ -79,7 +79,10 @@ class Recorder:
     def __call__(self, event: RunEvent) -> None:
         """Note one event."""
         self._line({"event": type(event).__name__, "time": round(self.seconds, 3), **_fields(event)})
-        if isinstance(event, AttemptEnded):
+        if isinstance(event, ReplyReceived):  # paid for, even if the run is cut off before the attempt ends
+            spent = event.completion.stats + Stats(llm_calls=1)
+            self._file = replace(self._file, stats=self._file.stats + spent)
+        elif isinstance(event, AttemptEnded):
             self._file = replace(self._file, stats=event.stats, unmet=event.attempt.goal.unmet)
         elif isinstance(event, RunEnded):
             result = event.result

@@ -8,19 +8,25 @@ from llm3.errors import BackendError
 from llm3.interfaces import LLMBackend
 from llm3.types import Completion, Request
 
-Reply = str | Completion | Exception
+Reply = str | Completion | BaseException
 Script = Iterable[Reply] | Callable[[Request], Reply]
 
 
 class ScriptedLLM(LLMBackend):
     """Answers from a script: a list, a generator, or a function of the request.
 
-    An exception in the script is raised instead of answered. Every request is kept in `requests`, so that a test can
-    look at the prompts that the loop wrote.
+    An exception in the script, a KeyboardInterrupt for instance, is raised instead of answered. Every request is kept
+    in `requests`, so that a test can look at the prompts that the loop wrote.
     """
 
     def __init__(self, script: Script) -> None:
-        """Take the replies."""
+        """Take the replies.
+
+        Raises:
+            TypeError: The script is one text; its characters would be the replies.
+        """
+        if isinstance(script, str):
+            raise TypeError("a script is a list of replies, not one text: write ScriptedLLM([text])")
         self.requests: list[Request] = []
         self._function = script if callable(script) else None
         self._replies: Iterator[Reply] = iter(()) if callable(script) else iter(script)
@@ -54,7 +60,8 @@ class ScriptedLLM(LLMBackend):
                 reply = next(self._replies)
             except StopIteration:
                 count = len(self.requests) - 1
-                raise BackendError(f"the script has run out after {count} replies.") from None
-        if isinstance(reply, Exception):
+                replies = "1 reply" if count == 1 else f"{count} replies"
+                raise BackendError(f"the script has run out after {replies}.") from None
+        if isinstance(reply, BaseException):
             raise reply
         return reply if isinstance(reply, Completion) else Completion(reply)

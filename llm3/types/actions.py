@@ -45,7 +45,8 @@ class Action:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", tuple(self.objects))
-        object.__setattr__(self, "params", FrozenDict({k: float(v) for k, v in self.params.items()}))
+        # -0.0 is made 0.0: equal actions must be written alike, for their text seeds what is drawn for them.
+        object.__setattr__(self, "params", FrozenDict({k: float(v) + 0.0 for k, v in self.params.items()}))
 
     def __str__(self) -> str:
         """Exactly what a model writes; parsing it gives this action back, to the last bit."""

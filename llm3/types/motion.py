@@ -51,7 +51,7 @@ class Segment:
     """A piece of motion, and the events that come before it."""
 
     label: str
-    """What the piece is for, such as ``"transit"``, ``"approach"`` or ``"lift"``."""
+    """What the piece is for, such as ``"transit"``, ``"approach"``, ``"lift"``, ``"descend"`` or ``"retreat"``."""
     waypoints: Waypoints
     events: tuple[Event, ...] = ()
 

@@ -65,12 +65,15 @@ class State:
     """Joint values of the robot: radians, or metres for a prismatic joint."""
     held: Held | None = None
     facts: Mapping[str, Fact] = field(default_factory=FrozenDict)
-    """Whatever else the future depends on, such as ``{"door_open": True}``."""
+    """Whatever else the future depends on, such as ``{"door_open": True}``. Floats are rounded like lengths."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "poses", FrozenDict(self.poses))
         object.__setattr__(self, "configuration", rounded(self.configuration, ANGLE_DECIMALS))
-        object.__setattr__(self, "facts", FrozenDict(self.facts))
+        facts = {
+            name: rounded((v,), LENGTH_DECIMALS)[0] if isinstance(v, float) else v for name, v in self.facts.items()
+        }
+        object.__setattr__(self, "facts", FrozenDict(facts))
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ def llm3_planners() -> Mapping[str, Callable[[PlannerSettings], MotionPlanner]]:
 
 
 def _birrt(settings: PlannerSettings) -> MotionPlanner:
+    """Bidirectional rapidly-exploring random trees, after a direct connection, with shortcuts."""
     from llm3_birrt.planner import BiRRT
 
     return BiRRT(settings)

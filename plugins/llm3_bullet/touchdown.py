@@ -145,8 +145,8 @@ class TouchdownPlanner:
         return Goal(
             rising[-1],
             (
-                Segment("approach", rising[::-1], option.before),
-                Segment("retreat", rising, option.bottom),
+                Segment("descend" if option.down.held else "approach", rising[::-1], option.before),
+                Segment("lift" if option.up.held else "retreat", rising, option.bottom),
             ),
         )
 

@@ -15,6 +15,7 @@ def llm3_backends() -> Mapping[str, Callable[[BackendSettings], LLMBackend]]:
 
 
 def _http(settings: BackendSettings) -> LLMBackend:
+    """A model behind OpenAI's chat completions: LLM3_BASE_URL, LLM3_API_KEY, --model."""
     import os
 
     import numpy as np

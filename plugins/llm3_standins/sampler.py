@@ -10,6 +10,9 @@ from llm3 import BackendSettings, LLMBackend
 from llm3.errors import MissingCapability
 from llm3.types import Action, Completion, Request
 
+DECIMALS = 4
+"""Parameters are drawn to 0.1 mm and 1e-4 rad, the grid of states."""
+
 
 class RandomBackend(LLMBackend):
     """Fills the domain's action sequence with parameters drawn uniformly.
@@ -51,6 +54,7 @@ class RandomBackend(LLMBackend):
             params: dict[str, float] = {}
             for parameter in schemas[sketch.name].parameters:
                 low, high = self._regions.get((sketch.name, parameter.name), (parameter.low, parameter.high))
-                params[parameter.name] = round(float(rng.uniform(low, high)), 4)
+                drawn = round(float(rng.uniform(low, high)), DECIMALS)
+                params[parameter.name] = min(max(drawn, low), high)  # rounding may step over a bound
             plan.append(str(Action(sketch.name, sketch.objects, params)))
         return Completion(json.dumps({"Reasoning": "The parameters are drawn at random.", "Full Plan": plan}))

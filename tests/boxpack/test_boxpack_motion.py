@@ -50,9 +50,10 @@ def steps(env) -> list[tuple[State, Motion, State]]:
     return done
 
 
-def test_an_action_is_a_transit_an_approach_and_a_retreat(steps):
-    for _, motion, _ in steps:
-        assert [segment.label for segment in motion.segments] == ["transit", "approach", "retreat"]
+def test_an_action_is_a_transit_and_the_way_down_and_up_again(steps):
+    ways = {"pick": ["transit", "approach", "lift"], "place": ["transit", "descend", "retreat"]}
+    for action, (_, motion, _) in zip(ACTIONS, steps, strict=True):
+        assert [segment.label for segment in motion.segments] == ways[action.name]
 
 
 def test_the_segments_join_and_the_arm_ends_where_the_motion_ends(steps):

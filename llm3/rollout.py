@@ -110,7 +110,8 @@ class Roller:
                 self._memory.tries[key] = self._memory.tries.get(key, 0) + 1
         else:
             self.stats += Stats(reused_actions=1)
-        return Outcome(action, verdict.failure, verdict.notes, reused), verdict.step
+        moved = verdict.step is None or bool(verdict.step.motion.segments)
+        return Outcome(action, verdict.failure, verdict.notes, reused, moved), verdict.step
 
     def _evaluate(self, state: State, action: Action, tries: int) -> Verdict:
         with self._phase("prepare"):

@@ -22,9 +22,10 @@ def task_text(robot: RobotDescription, opening_margin: float, wall_height: float
         "The goal: every box lies in the basket with its whole footprint, and the gripper is empty. Boxes must not "
         "be put on top of one another.\n"
         "The gripper takes a box from above between two fingers, on two opposite side faces no more than "
-        f"{gripper.max_opening - opening_margin:g} m apart: the closer pair if the pairs differ, either pair if both "
-        f"will do. The fingers need about {room:.3f} m of free space beside these two faces, when they take a box "
-        "and when they let go of it. Then the hand moves straight up."
+        f"{gripper.max_opening - opening_margin:g} m apart: the closer pair, or for a square box the pair along its "
+        "own x direction (that of theta), and the other one only if the first is blocked. The fingers need about "
+        f"{room:.3f} m of free space beside these two faces, when they take a box and when they let go of it. Then "
+        "the hand moves straight up."
     )
 
 

@@ -41,6 +41,8 @@ class Outcome:
     """What physics did against the plan."""
     reused: bool = False
     """Whether the result was known from an earlier attempt."""
+    moved: bool = True
+    """False for an action that is feasible without any motion."""
 
 
 @dataclass(frozen=True)

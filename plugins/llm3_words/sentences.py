@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from llm3.types import Failure, FailureKind
 
 FEASIBLE = "The goal configuration is collision-free and reachable."
+FEASIBLE_AT_REST = "It is possible without any motion."
 ITSELF = "itself"
 """The object of a contact between two parts of the robot."""
 

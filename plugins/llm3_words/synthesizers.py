@@ -10,7 +10,7 @@ from abc import abstractmethod
 
 from llm3.interfaces import FeedbackSynthesizer
 from llm3.types import Attempt, Failure, Feedback, Outcome, Remark
-from llm3_words.sentences import FEASIBLE, closed, sentence_of
+from llm3_words.sentences import FEASIBLE, FEASIBLE_AT_REST, closed, sentence_of
 
 
 class _Remarks(FeedbackSynthesizer):
@@ -26,7 +26,7 @@ class _Remarks(FeedbackSynthesizer):
         return Feedback(attempt.number, tried + not_tried, _unmet(attempt))
 
     def _remark(self, outcome: Outcome) -> Remark:
-        why = self._why(outcome.failure) if outcome.failure else self._feasible()
+        why = self._why(outcome.failure) if outcome.failure else self._feasible(outcome.moved)
         text = " ".join(closed(part) for part in (why, *outcome.notes) if part)
         return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text)
 
@@ -34,7 +34,7 @@ class _Remarks(FeedbackSynthesizer):
     def _why(self, failure: Failure) -> str: ...
 
     @abstractmethod
-    def _feasible(self) -> str: ...
+    def _feasible(self, moved: bool) -> str: ...
 
 
 class Categorized(_Remarks):
@@ -43,8 +43,8 @@ class Categorized(_Remarks):
     def _why(self, failure: Failure) -> str:
         return sentence_of(failure)
 
-    def _feasible(self) -> str:
-        return FEASIBLE
+    def _feasible(self, moved: bool) -> str:
+        return FEASIBLE if moved else FEASIBLE_AT_REST
 
 
 class Binary(_Remarks):
@@ -57,7 +57,7 @@ class Binary(_Remarks):
     def _why(self, failure: Failure) -> str:
         return "" if failure.kind.is_motion else sentence_of(failure)
 
-    def _feasible(self) -> str:
+    def _feasible(self, moved: bool) -> str:  # noqa: ARG002  # it says nothing in either case
         return ""
 
 

@@ -24,8 +24,9 @@ The basket is a flat tray whose sides are parallel to x and y. It has no walls.
 The goal: every box lies in the basket with its whole footprint, and the gripper is empty. Boxes must not be put on \
 top of one another.
 The gripper takes a box from above between two fingers, on two opposite side faces no more than 0.072 m apart: the \
-closer pair if the pairs differ, either pair if both will do. The fingers need about 0.034 m of free space beside \
-these two faces, when they take a box and when they let go of it. Then the hand moves straight up."""
+closer pair, or for a square box the pair along its own x direction (that of theta), and the other one only if the \
+first is blocked. The fingers need about 0.034 m of free space beside these two faces, when they take a box and when \
+they let go of it. Then the hand moves straight up."""
 
 
 def test_the_task(make):

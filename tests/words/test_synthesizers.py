@@ -168,3 +168,10 @@ def test_notes_are_told_at_every_level(
 def test_the_plugin_offers_the_three_levels() -> None:
     levels = {name: type(factory()) for name, factory in plugin.llm3_feedback().items()}
     assert levels == {"categorized": Categorized, "binary": Binary, "none": Silent}
+
+
+def test_an_action_without_motion_is_not_called_reachable():
+    rested = Outcome(PICK, moved=False)
+    waited = attempt(rested, planned=(PICK,))
+    assert Categorized().synthesize(waited).remarks[0].text == "It is possible without any motion."
+    assert Binary().synthesize(waited).remarks[0].text == ""

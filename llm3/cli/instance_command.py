@@ -7,6 +7,7 @@ from pathlib import Path
 
 from llm3.assembly import choose_instance
 from llm3.cli.problem_arguments import add_problem_arguments, chosen_domain
+from llm3.cli.text import emit
 from llm3.errors import LLM3Error, OutputExists
 from llm3.jsonio import pretty
 from llm3.registry import Registry
@@ -24,7 +25,7 @@ def run(arguments: Namespace) -> int:
     domain = chosen_domain(Registry.discover(), arguments)
     text = pretty(choose_instance(domain, arguments.setting, arguments.seed))
     if not arguments.out:
-        print(text, end="")
+        emit(text)
         return 0
     try:
         with arguments.out.open("w" if arguments.force else "x", encoding="utf-8") as file:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
 
-from llm3.cli.text import printable
+from llm3.cli.text import emit, printable
 from llm3.jsonio import dumps
 from llm3.registry import HOOKS, Registration, Registry
 
@@ -25,21 +27,29 @@ def run(arguments: Namespace) -> int:
             ]
             for kind in HOOKS
         }
-        print(dumps({**found, "broken": registry.broken}))
-        return 0
-    for kind in HOOKS:
-        print(f"{kind}:")
-        for r in registry.registrations(kind):
-            print(printable(f"{r.name:<16}{r.plugin:<28}{_description(registry, r)}", keep_spaces=True, indent=2))
-    if registry.broken:
-        print("failed to load:")
-        for broken in registry.broken:
-            print(printable(f"{broken.plugin}: {broken.reason}", indent=2))
+        emit(dumps({**found, "broken": registry.broken}) + "\n")
+    else:
+        emit("".join(f"{line}\n" for line in _table(registry)))
     return 0
 
 
+def _table(registry: Registry) -> Iterator[str]:
+    rows = [r for kind in HOOKS for r in registry.registrations(kind)]
+    name = 2 + max((len(r.name) for r in rows), default=0)
+    plugin = 2 + max((len(r.plugin) for r in rows), default=0)
+    for kind in HOOKS:
+        yield f"{kind}:"
+        for r in registry.registrations(kind):
+            line = f"{r.name:<{name}}{r.plugin:<{plugin}}{_description(registry, r)}"
+            yield printable(line, keep_spaces=True, indent=2)
+    if registry.broken:
+        yield "failed to load:"
+        for broken in registry.broken:
+            yield printable(f"{broken.plugin}: {broken.reason}", indent=2)
+
+
 def _description(registry: Registry, registration: Registration) -> str:
-    """One line about a domain or a strategy; for the other kinds the name has to do."""
+    """One line: what a domain or a strategy says of itself, or the first line of a factory's docstring."""
     try:
         if registration.kind == "domain":
             domain = registry.domain(registration.name)
@@ -48,4 +58,5 @@ def _description(registry: Registry, registration: Registration) -> str:
             return registry.strategy(registration.name).description
     except Exception as error:  # a broken plugin is what this list is there to show
         return f"cannot be made: {type(error).__name__}: {error}"
-    return ""
+    documented = inspect.isroutine(registration.factory) or inspect.isclass(registration.factory)
+    return (inspect.getdoc(registration.factory) or "").partition("\n")[0] if documented else ""

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import importlib
-import os
 import sys
 import traceback
-from argparse import ArgumentParser, RawDescriptionHelpFormatter
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
 from typing import NoReturn
 
-from llm3.cli.text import printable
-from llm3.errors import LLM3Error
+from llm3.cli.text import emit, printable
+from llm3.errors import LLM3Error, UnknownName, UsageError
 
 COMMANDS = {
     "run": "plan for one problem (the command that is meant when none is named)",
@@ -22,12 +21,22 @@ COMMANDS = {
 INTERRUPTED = 130
 
 
-class _Parser(ArgumentParser):
-    """argparse with errors in one line."""
+class CommandParser(ArgumentParser):
+    """argparse whose errors are one line, like all others."""
 
     def error(self, message: str) -> NoReturn:
-        sys.stderr.write(f"llm3: error: {printable(message)}. See '{self.prog} --help'.\n")
-        sys.exit(2)
+        """Turn a complaint of argparse into an error of ours."""
+        raise UsageError(f"{message}. See '{self.prog} --help'.")
+
+    def read(self, arguments: Sequence[str]) -> Namespace:
+        """Parse, and say what comes close to what is not known."""
+        options, unknown = self.parse_known_args(arguments)
+        if not unknown:
+            return options
+        word = unknown[0].partition("=")[0]
+        if word.startswith("-"):
+            raise UnknownName("flag", word, self._option_string_actions)
+        raise UsageError(f"unexpected argument {word!r}. A command stands first: {', '.join(COMMANDS)}.")
 
 
 class _Formatter(RawDescriptionHelpFormatter):
@@ -37,14 +46,14 @@ class _Formatter(RawDescriptionHelpFormatter):
         super().__init__(prog, max_help_position=28, width=100)
 
 
-def build_parser(command: str) -> ArgumentParser:
+def build_parser(command: str) -> CommandParser:
     """The argument parser of one command."""
     module = importlib.import_module(f"llm3.cli.{command}_command")
     epilog = None
     if command == "run":
         lines = "".join(f"  llm3 {name:<10}{text}\n" for name, text in COMMANDS.items())
         epilog = f"commands:\n{lines}\n'llm3 COMMAND --help' tells more of each."
-    parser = _Parser(
+    parser = CommandParser(
         prog="llm3" if command == "run" else f"llm3 {command}",
         description=module.__doc__,
         epilog=epilog,
@@ -63,26 +72,31 @@ def main(argv: Sequence[str] | None = None) -> int:
         0 solved or done, 1 not solved, 2 a usage error, 3 any other error, 130 after Ctrl-C.
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
-    command = arguments.pop(0) if arguments and arguments[0] in COMMANDS else "run"
+    debug = "--debug" in arguments  # an argument that cannot be parsed may be what is wrong
     try:
-        options = build_parser(command).parse_args(arguments)
-    except SystemExit as ending:  # argparse has said what there is to say
-        return int(ending.code or 0)
-    try:
-        code: int = importlib.import_module(f"llm3.cli.{command}_command").run(options)
-        sys.stdout.flush()
-        return code
+        return _run(arguments)
     except KeyboardInterrupt:
         sys.stderr.write("llm3: interrupted.\n")
         return INTERRUPTED
-    except BrokenPipeError:  # the reader of stdout, such as `head`, has had enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except LLM3Error as error:
-        return _report(str(error), error.exit_code, options.debug)
+        return _report(str(error), error.exit_code, debug)
     except Exception as error:  # the last line of defence: one line instead of a traceback
         text = f"internal error: {type(error).__name__}: {error} (--debug shows the traceback)"
-        return _report(text, LLM3Error.exit_code, options.debug)
+        return _report(text, LLM3Error.exit_code, debug)
+
+
+def _run(arguments: list[str]) -> int:
+    first = arguments[0] if arguments else ""
+    if first and not first.startswith("-") and first not in COMMANDS:
+        raise UnknownName("command", first, COMMANDS)
+    command, rest = (first, arguments[1:]) if first in COMMANDS else ("run", arguments)
+    try:
+        options = build_parser(command).read(rest)
+    except SystemExit:  # --help and --version have said what there is to say
+        emit("")
+        return 0
+    code: int = importlib.import_module(f"llm3.cli.{command}_command").run(options)
+    return code
 
 
 def _report(text: str, code: int, debug: bool) -> int:

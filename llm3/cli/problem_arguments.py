@@ -12,6 +12,8 @@ from llm3.interfaces import Domain
 from llm3.jsonio import read_file
 from llm3.registry import Registry
 
+LARGEST_SEED = 2**63 - 1
+"""What every reader of a record can hold as a whole number."""
 _DEFAULT = RunConfig(domain="")
 
 
@@ -19,7 +21,7 @@ def add_problem_arguments(parser: ArgumentParser) -> None:
     """Add ``--domain``, ``--setting`` and ``--seed``."""
     parser.add_argument("--domain", metavar="NAME", help="the kind of problem, such as boxpack")
     parser.add_argument("--setting", metavar="NAME", help="a problem family (default: the domain's own)")
-    parser.add_argument("--seed", type=int, default=0, help="chooses the problem, and seeds the run (default: 0)")
+    parser.add_argument("--seed", type=_seed, default=0, help="chooses the problem, and seeds the run (default: 0)")
 
 
 def add_world_arguments(parser: ArgumentParser) -> None:
@@ -68,6 +70,12 @@ def loaded_instance(domain: Domain, arguments: Namespace) -> Any:
     if arguments.setting:
         raise UsageError("--setting and --instance both choose a problem: give one of them.")
     return read_file(arguments.instance, domain.instance_type)
+
+
+def _seed(text: str) -> int:
+    if text.isascii() and text.isdigit() and len(text) <= len(str(LARGEST_SEED)) and int(text) <= LARGEST_SEED:
+        return int(text)
+    raise ArgumentTypeError(f"expected a whole number from 0 to {LARGEST_SEED}, not {text!r}")
 
 
 def _option(text: str) -> tuple[str, str]:

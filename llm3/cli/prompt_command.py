@@ -12,6 +12,7 @@ from llm3.cli.problem_arguments import (
     chosen_domain,
     loaded_instance,
 )
+from llm3.cli.text import emit
 from llm3.jsonio import dumps
 from llm3.prompts import Prompt
 from llm3.registry import Registry
@@ -40,8 +41,6 @@ def run(arguments: Namespace) -> int:
         env = problem.env
         context = Context(env.task, env.schemas, env.objects, env.describe(env.reset()), skeleton=skeleton)
         messages = prompt.render(context)
-    if arguments.json:
-        print(dumps(messages))
-    else:
-        print("\n\n".join(f"--- {m.role} ---\n\n{m.content}" for m in messages))
+    text = dumps(messages) if arguments.json else "\n\n".join(f"--- {m.role} ---\n\n{m.content}" for m in messages)
+    emit(text + "\n")
     return 0

@@ -14,8 +14,9 @@ from llm3.cli.problem_arguments import (
     chosen_domain,
     loaded_instance,
 )
+from llm3.cli.text import emit
 from llm3.jsonio import dumps
-from llm3.records import Recorder, create_folder, default_folder
+from llm3.records import Recorder, create_default_folder, create_folder
 from llm3.registry import Registry
 from llm3.types import Result, RunEvent
 
@@ -86,14 +87,17 @@ def run(arguments: Namespace) -> int:
         options=dict(arguments.options),
     )
     view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
-    for broken in registry.broken:
-        view.note(f"warning: plugin {broken.plugin} failed to load: {broken.reason}")
     with assemble(registry, config, loaded_instance(domain, arguments), arguments.gui) as ready:
         config = ready.config
         name = f"{config.domain}-{config.setting or 'instance'}-{config.seed}"
-        folder = create_folder(arguments.out or default_folder(name, datetime.now()), arguments.force)
+        if arguments.out:
+            folder = create_folder(arguments.out, arguments.force)
+        else:
+            folder = create_default_folder(name, datetime.now())
         if ready.backend.notice:
             view.note(ready.backend.notice)
+        for broken in registry.broken:
+            view.note(f"warning: plugin {broken.plugin} failed to load: {broken.reason}")
         with Recorder(folder, ready) as record, view:
 
             def observe(event: RunEvent) -> None:
@@ -103,10 +107,9 @@ def run(arguments: Namespace) -> int:
             result = ready.solve(observe)
         view.summary(result, record.seconds, folder)
     if arguments.json:
-        print(dumps(_summary(config, result, record.seconds, folder)))
+        emit(dumps(_summary(config, result, record.seconds, folder)) + "\n")
     else:
-        for step in result.plan:
-            print(step.action)
+        emit("".join(f"{step.action}\n" for step in result.plan))
     return 0 if result.solved else 1
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from types import TracebackType
 
@@ -9,7 +10,7 @@ from rich.console import Console
 from rich.status import Status
 from rich.text import Text
 
-from llm3.cli.text import printable
+from llm3.cli.text import discard, printable
 from llm3.types import (
     ActionTried,
     AttemptEnded,
@@ -22,6 +23,13 @@ from llm3.types import (
 )
 
 
+class _Console(Console):
+    def on_broken_pipe(self) -> None:
+        """Whoever watched has left; the run goes on, and its result is for stdout."""
+        self.quiet = True
+        discard(sys.stderr)
+
+
 class RunView:
     """An observer that shows attempts, actions and outcomes. Use it in a ``with`` while the run goes on."""
 
@@ -32,7 +40,7 @@ class RunView:
             quiet: Show nothing at all.
             budget: The number of model calls that the run may make.
         """
-        self._console = Console(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
+        self._console = _Console(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
         self._budget = budget
         self._status: Status | None = None
         if self._console.is_terminal and not self._console.is_dumb_terminal and not quiet:
@@ -61,8 +69,8 @@ class RunView:
             if isinstance(event.proposal, Failure):
                 self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
             else:
-                count = len(event.proposal.actions)
-                self._line(f"attempt {event.attempt}: a plan of {count} action{'s' * (count != 1)}", "bold")
+                actions = _count(len(event.proposal.actions), "action")
+                self._line(f"attempt {event.attempt}: a plan of {actions}", "bold")
                 self._wait(f"attempt {event.attempt} of {self._budget}: trying the plan")
         elif isinstance(event, ActionTried):
             self._outcome(event.index + 1, event.outcome)
@@ -74,8 +82,8 @@ class RunView:
         stats = result.stats
         word, style = ("solved", "bold green") if result.solved else ("not solved", "bold red")
         self._line(
-            f"{word} in {seconds:.1f} s: {stats.llm_calls} model calls, {stats.motion_calls} motion calls, "
-            f"{stats.reused_actions} actions reused",
+            f"{word} in {seconds:.1f} s: {_count(stats.llm_calls, 'model call')}, "
+            f"{_count(stats.motion_calls, 'motion call')}, {_count(stats.reused_actions, 'action')} reused",
             style,
         )
         if result.time_limited:
@@ -99,3 +107,7 @@ class RunView:
     def _wait(self, text: str) -> None:
         if self._status:
             self._status.update(Text(text))
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}{'s' * (number != 1)}"

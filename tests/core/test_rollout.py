@@ -54,6 +54,7 @@ def test_motions_join_up_and_an_action_without_motion_has_an_empty_one():
     assert first.segments[0].waypoints[0] == (0.0,)
     assert first.end == third.segments[0].waypoints[0] == (1.0,)
     assert second == Motion()
+    assert [outcome.moved for outcome in rolled.outcomes] == [True, False, True]
 
 
 @pytest.mark.parametrize(

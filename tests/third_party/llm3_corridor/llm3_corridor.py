@@ -6,7 +6,17 @@ import numpy as np
 
 from llm3 import Domain, Env, hookimpl
 from llm3.types import (
-    ActionSchema, Entity, Failure, FailureKind, Goal, GoalStatus, MotionProblem, Parameter, Sketch, State, Transition,
+    ActionSchema,
+    Entity,
+    Failure,
+    FailureKind,
+    Goal,
+    GoalStatus,
+    MotionProblem,
+    Parameter,
+    Sketch,
+    State,
+    Transition,
 )
 
 
@@ -29,7 +39,8 @@ class CorridorEnv(Env):
 
     def describe(self, state):
         robot = Entity("robot", {"position": state.configuration})
-        return robot, Entity("wall", {"x range": (0.9, 1.1), "gap": (self.gap - 0.1, self.gap + 0.1)})
+        gap = (round(self.gap - 0.1, 3), round(self.gap + 0.1, 3))
+        return robot, Entity("wall", {"x range": (0.9, 1.1), "gap": gap})
 
     def free(self, Q):  # one row a position: a planner asks for many at once
         return (abs(Q[:, 0] - 1.0) > 0.1) | (abs(Q[:, 1] - self.gap) < 0.1)

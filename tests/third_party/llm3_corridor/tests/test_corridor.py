@@ -1,11 +1,14 @@
+from llm3_corridor import CorridorEnv, CorridorInstance
+
 from llm3 import Prompt, Registry, solve
 from llm3.testing import ScriptedLLM
-from llm3_corridor import CorridorEnv, CorridorInstance
 
 
 def test_a_failed_plan_is_corrected():
     registry = Registry.discover()
-    model = ScriptedLLM(['{"Full Plan": ["go([], {\'x\': 1.0, \'y\': 0.9})"]}', '{"Full Plan": ["go([], {\'x\': 1.9, \'y\': 0.5})"]}'])
+    model = ScriptedLLM(
+        ["{\"Full Plan\": [\"go([], {'x': 1.0, 'y': 0.9})\"]}", "{\"Full Plan\": [\"go([], {'x': 1.9, 'y': 0.5})\"]}"]
+    )
     result = solve(
         CorridorEnv(CorridorInstance(gap=0.3)),
         backend=model,

@@ -1,0 +1,83 @@
+"""What is asked for and is not there: exit code 2, one line that names it, what comes close and what there is."""
+
+from __future__ import annotations
+
+import pytest
+
+RUN_FLAGS = (
+    "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, --model, "
+    "--out, --planner, --quiet, --seed, --setting, --strategy, --temperature, --trace-size, --version, -D, -h"
+)
+SENTENCES = {
+    "": "no domain: give --domain NAME. Known: boxpack, corridor.",
+    "--domain coridor": "unknown domain 'coridor'; did you mean 'corridor'? Known: boxpack, corridor.",
+    "--domain kitchen": "unknown domain 'kitchen'. Known: boxpack, corridor.",
+    "--domain corridor --setting defualt": (
+        "unknown setting 'defualt' of domain 'corridor'; did you mean 'default'? Known: default."
+    ),
+    "--domain corridor --strategy backtrak": (
+        "unknown strategy 'backtrak'; did you mean 'backtrack'? Known: backtrack, sample-params, scratch."
+    ),
+    "--domain corridor --feedback categorised": (
+        "unknown feedback 'categorised'; did you mean 'categorized'? Known: binary, categorized, none."
+    ),
+    "--domain corridor --planner birt": "unknown planner 'birt'; did you mean 'birrt'? Known: birrt.",
+    "--domain corridor --llm ofline": (
+        "unknown backend 'ofline'; did you mean 'offline'? Known: http, offline, random, scripted."
+    ),
+    "--domain corridor -D walls=1": "unknown option 'walls' of domain 'corridor'. Known: none.",
+    "--domain corridor -D walls": "argument -D: expected KEY=VALUE, not 'walls'. See 'llm3 --help'.",
+    "--domain corridor --sed 3": f"unknown flag '--sed'; did you mean '--seed'? Known: {RUN_FLAGS}.",
+    "--domain corridor --sed=3": f"unknown flag '--sed'; did you mean '--seed'? Known: {RUN_FLAGS}.",
+    "--domain corridor --seed": "argument --seed: expected one argument. See 'llm3 --help'.",
+    "--domain corridor --seed -1": (
+        "argument --seed: expected a whole number from 0 to 9223372036854775807, not '-1'. See 'llm3 --help'."
+    ),
+    "--domain corridor --seed 9223372036854775808": (
+        "argument --seed: expected a whole number from 0 to 9223372036854775807, not '9223372036854775808'. "
+        "See 'llm3 --help'."
+    ),
+    "--domain corridor --max-llm-calls 0": "the number of model calls must be at least 1, not 0.",
+    "--domain corridor --trace-size -1": "the trace size must be 0 or more, not -1.",
+    "--domain corridor --temperature hot": ("argument --temperature: invalid float value: 'hot'. See 'llm3 --help'."),
+    "--domain corridor --llm offline --model gpt": "--model goes with the backend 'http', not with 'offline'.",
+    "--domain corridor --gui": "domain 'corridor' has no window, which --gui needs.",
+    "--domain corridor --llm scripted": (
+        "the backend 'scripted' needs a JSON file with a list of replies: --llm scripted:replies.json."
+    ),
+    "--domain corridor --instance a.json --setting default": (
+        "--setting and --instance both choose a problem: give one of them."
+    ),
+    "lst": "unknown command 'lst'; did you mean 'list'? Known: instance, list, prompt, run.",
+    "--domain corridor list": "unexpected argument 'list'. A command stands first: run, prompt, instance, list.",
+    "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
+    "prompt --domain corridor --llm http": (
+        "unknown flag '--llm'. Known: --debug, --domain, --help, --instance, --json, --seed, --setting, --strategy, "
+        "-D, -h."
+    ),
+    "prompt": "no domain: give --domain NAME. Known: boxpack, corridor.",
+    "instance --domain corridor --setting wide": ("unknown setting 'wide' of domain 'corridor'. Known: default."),
+}
+
+
+@pytest.mark.parametrize(("line", "sentence"), SENTENCES.items(), ids=SENTENCES)
+def test_one_line_says_what_is_wrong(command, cwd, line, sentence):
+    ended = command(*line.split()) if line else command("run")
+    assert (ended.code, ended.out, ended.err) == (2, "", f"llm3: error: {sentence}\n")
+    assert not list(cwd.iterdir())
+
+
+def test_debug_adds_the_traceback(command):
+    ended = command("--domain kitchen --debug")
+    assert ended.code == 2
+    assert ended.err.startswith("Traceback (most recent call last):\n")
+    assert ended.err.endswith("\nllm3: error: unknown domain 'kitchen'. Known: boxpack, corridor.\n")
+
+
+def test_debug_is_heard_when_the_arguments_cannot_be_read(command):
+    assert "Traceback" in command("--debug --sed 3").err
+
+
+def test_control_characters_of_the_user_do_not_reach_the_terminal(command):
+    ended = command("--domain", "\x1b[2J\x07")
+    assert (ended.code, ended.err) == (2, r"llm3: error: unknown domain '\x1b[2J\x07'. Known: boxpack, corridor." "\n")

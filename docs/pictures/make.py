@@ -17,23 +17,15 @@ from llm3 import Registry
 from llm3.assembly import RunConfig, assemble
 from llm3.types import Pose
 from llm3_boxpack.env import BoxpackEnv
+from llm3_boxpack.window import CAMERA, color_of
 from llm3_bullet.clients import connect
 from llm3_bullet.model import RobotModel
 from llm3_bullet.robots.panda import panda
 from llm3_bullet.scene import Box
-from llm3_bullet.stage import Camera, Stage
+from llm3_bullet.stage import Stage
 
 TARGET = Path(__file__).with_name("boxpack.png")
 CONFIG = RunConfig("boxpack", setting="hard-small", seed=0)
-CAMERA = Camera(target=(0.36, 0.0, 0.22), distance=1.35, yaw=55.0, pitch=-30.0)
-COLORS = {
-    "table": (0.90, 0.86, 0.80),
-    "basket": (0.45, 0.33, 0.22),
-    "red_box": (0.83, 0.20, 0.18),
-    "blue_box": (0.16, 0.38, 0.75),
-    "green_box": (0.20, 0.58, 0.32),
-    "tan_box": (0.86, 0.70, 0.47),
-}
 WIDTH, HEIGHT = 800, 600
 OVERSAMPLING = 2  # the renderer does not smooth edges, so a larger picture is made smaller
 
@@ -46,8 +38,9 @@ def main() -> None:
             raise SystemExit("the run is not solved, so there is nothing to draw")
         state, events = plan[-1].state, plan[-1].motion.events
         opening = [event.opening for event in events if event.opening is not None][-1]
-        stage = Stage(client, RobotModel(panda()), COLORS, CAMERA)
-        stage.show(trimmed(run.problem.env.scene(state).boxes), state.configuration, None, opening)
+        boxes = trimmed(run.problem.env.scene(state).boxes)
+        stage = Stage(client, RobotModel(panda()), {box.name: color_of(box.name) for box in boxes}, CAMERA)
+        stage.show(boxes, state.configuration, None, opening)
         pixels = stage.picture(WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING)
     picture = Image.fromarray(pixels).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
     picture.save(TARGET, optimize=True)

@@ -14,20 +14,25 @@ from llm3_bullet.stage import Camera, Color, Stage
 from llm3_bullet.workcell import Workcell
 
 COLORS: dict[str, Color] = {
-    "red": (0.80, 0.15, 0.13),
-    "blue": (0.15, 0.35, 0.75),
-    "green": (0.20, 0.60, 0.25),
-    "tan": (0.82, 0.70, 0.50),
+    "table": (0.90, 0.86, 0.80),
+    "basket": (0.45, 0.33, 0.22),
+    "red": (0.83, 0.20, 0.18),
+    "blue": (0.16, 0.38, 0.75),
+    "green": (0.20, 0.58, 0.32),
+    "tan": (0.86, 0.70, 0.47),
     "cyan": (0.20, 0.70, 0.75),
-    "yellow": (0.90, 0.78, 0.20),
-    "table": (0.85, 0.80, 0.72),
-    "basket": (0.35, 0.36, 0.40),
+    "yellow": (0.92, 0.78, 0.20),
 }
 """By the first word of a name."""
 GREY: Color = (0.6, 0.6, 0.6)
-CAMERA = Camera(target=(0.5, 0.0, 0.15), distance=1.3)
+CAMERA = Camera(target=(0.36, 0.0, 0.22), distance=1.35, yaw=55.0, pitch=-30.0)
 LAST_LOOK = 2.0
 """Seconds for which the window stays open at the end."""
+
+
+def color_of(name: str) -> Color:
+    """The colour that a name begins with, or grey."""
+    return COLORS.get(name.partition("_")[0], GREY)
 
 
 class BoxpackStage:
@@ -39,7 +44,7 @@ class BoxpackStage:
         """Set the stage for an Env's instance in a client of its own."""
         self._env = env
         names = [box.name for box in env.scene(env.reset()).boxes]
-        colors = {name: COLORS.get(name.split("_")[0], GREY) for name in names}
+        colors = {name: color_of(name) for name in names}
         self.stage = Stage(client, model, colors, CAMERA, pause)
         self.show(env.reset())
 

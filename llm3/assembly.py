@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import inf
 from types import TracebackType
 from typing import Any
 
 from llm3.errors import MissingCapability, UnknownName, UsageError
+from llm3.guarded import guarded
 from llm3.interfaces import (
     BackendSettings,
     Domain,
@@ -16,6 +18,7 @@ from llm3.interfaces import (
     LLMBackend,
     MotionPlanner,
     Options,
+    PlannerSettings,
     Strategy,
 )
 from llm3.prompts import Prompt
@@ -35,10 +38,14 @@ class RunConfig:
     strategy: str = "backtrack"
     feedback: str = "categorized"
     llm: str | None = None
-    """A backend, with an argument after a colon where it takes one. None: ``http`` with a model, else ``offline``."""
+    """A backend, with an argument after a colon where it takes one; None leaves the choice to `backend`."""
     model: str | None = None
     temperature: float | None = None
     planner: str = "birrt"
+    planner_iterations: int = 2000
+    """What the planner may spend on one query."""
+    planner_seconds: float = 30.0
+    """A guard on one query, not the budget: a run that hits it is marked, and may not repeat."""
     max_llm_calls: int = 20
     trace_size: int = 5
     options: Mapping[str, str] = field(default_factory=FrozenDict)
@@ -47,10 +54,16 @@ class RunConfig:
     def __post_init__(self) -> None:
         object.__setattr__(self, "options", FrozenDict(self.options))
         Budget(self.max_llm_calls, self.trace_size)  # refuses what cannot be
-        if self.llm is None:
-            object.__setattr__(self, "llm", "http" if self.model else "offline")
-        elif self.model and self.llm != "http":
-            raise UsageError(f"--model goes with the backend 'http', not with {self.llm!r}.")
+        PlannerSettings(self.planner_iterations, self.planner_seconds)
+        if self.temperature is not None and not 0 <= self.temperature < inf:
+            raise UsageError(f"the temperature must be 0 or more, not {self.temperature:g}.")
+        if self.model is not None and not self.model.strip():
+            raise UsageError("the model's name is empty: name one, or leave out --model.")
+
+    @property
+    def backend(self) -> str:
+        """The backend that is meant: ``http`` for a model, ``offline`` without one."""
+        return self.llm or ("offline" if self.model is None else "http")
 
 
 @dataclass(frozen=True)
@@ -100,8 +113,10 @@ class Run:
 
     def close(self) -> None:
         """Let go of the world and the backend. Calling it twice does no harm."""
-        self.backend.close()
-        self.problem.env.close()
+        try:
+            self.backend.close()
+        finally:
+            self.problem.env.close()
 
     def __enter__(self) -> Run:
         return self
@@ -118,10 +133,10 @@ def choose_instance(domain: Domain, setting: str | None, seed: int) -> Any:
     Raises:
         UnknownName: The domain has no such setting.
     """
-    setting = setting or domain.default_setting
+    setting = domain.default_setting if setting is None else setting
     if setting not in domain.settings:
         raise UnknownName("setting", setting, domain.settings, owner=f"domain {domain.name!r}")
-    return domain.instance(setting, seed)
+    return guarded(domain.instance, (domain.instance_type,), setting, seed)
 
 
 def choose_options(domain: Domain, given: Mapping[str, str]) -> Options:
@@ -148,7 +163,8 @@ def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], wind
         MissingCapability: The domain has no window.
     """
     chosen = choose_options(domain, options)
-    env = domain.make_in_window(instance, chosen) if window else domain.make(instance, chosen)
+    make = domain.make_in_window if window else domain.make
+    env = guarded(make, (Env, type(None)) if window else (Env,), instance, chosen)
     if env is None:
         raise MissingCapability(domain.name, "window", "--gui")
     return Problem(domain, instance, chosen, env)
@@ -183,13 +199,14 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
     domain = registry.domain(config.domain)
     strategy = registry.strategy(config.strategy)
     feedback = registry.feedback(config.feedback)
-    planner = registry.planner(config.planner)
+    planner = registry.planner(config.planner, PlannerSettings(config.planner_iterations, config.planner_seconds))
     prompt = Prompt(strategy)
     if instance is None:
         instance = choose_instance(domain, config.setting, config.seed)
-        config = replace(config, setting=config.setting or domain.default_setting)
+        config = replace(config, setting=domain.default_setting if config.setting is None else config.setting)
     skeleton = given_skeleton(domain, instance, strategy, config.strategy)
-    name, _, argument = (config.llm or "").partition(":")
+    config = replace(config, llm=config.backend)
+    name, _, argument = config.backend.partition(":")
     backend = registry.backend(
         name,
         BackendSettings(

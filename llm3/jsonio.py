@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -54,12 +55,15 @@ def loads(text: str | bytes, type_: type[T], source: str) -> T:
         InputError: One line that names the source, the field and what is wrong with it.
     """
     try:
-        text = text.decode() if isinstance(text, bytes) else text
+        text = text.decode("utf-8-sig") if isinstance(text, bytes) else text
         value = msgspec.json.decode(text, type=type_)
+        json.loads(text, object_pairs_hook=_without_doubles)
         _set_defaults(value)
         wrong = _unknown_field(msgspec.json.decode(text), to_builtins(value), "$")
     except (UnicodeDecodeError, UnicodeEncodeError) as error:
         raise InputError(f"{source}: not UTF-8 text: {error.reason} at byte {error.start}") from error
+    except _DoubleKey as error:
+        raise InputError(f"{source}: the field `{error}` stands there twice") from error
     except RecursionError as error:
         raise InputError(f"{source}: nested too deeply") from error
     except msgspec.MsgspecError as error:
@@ -67,6 +71,19 @@ def loads(text: str | bytes, type_: type[T], source: str) -> T:
     if wrong:
         raise InputError(f"{source}: {wrong}")
     return value
+
+
+class _DoubleKey(Exception):  # it never leaves this module
+    pass
+
+
+def _without_doubles(pairs: list[tuple[str, Any]]) -> None:
+    """Refuse an object that says one thing twice, of which JSON parsers take the last in silence."""
+    seen = set()
+    for key, _ in pairs:
+        if key in seen:
+            raise _DoubleKey(key)
+        seen.add(key)
 
 
 def _set_defaults(value: Any) -> None:

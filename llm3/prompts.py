@@ -30,6 +30,7 @@ class Prompt:
         Raises:
             PluginError: The package or the template is not there, or the template has a syntax error.
         """
+        self.strategy = strategy
         self._name = f"{strategy.package}/{strategy.template}"
         try:
             packages = {p: jinja2.PackageLoader(p, "") for p in {strategy.package, PARTIALS}}

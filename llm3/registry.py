@@ -155,7 +155,7 @@ class Registry:
     def _make(self, expected: type[T], kind: str, name: str, *arguments: Any) -> T:
         for registration in self.registrations(kind):
             if registration.name == name:
-                made = registration.factory(*arguments)
+                made = _made(registration, arguments)
                 if not isinstance(made, expected):
                     wanted, got = expected.__name__, type(made).__name__
                     raise PluginError(f"{registration.plugin}: {kind} {name!r} made a {got}, not a {wanted}.")
@@ -171,6 +171,15 @@ class Registry:
             PluginError: What was made is no domain, or has another name.
         """
         domain = self._make(Domain, "domain", name)  # type: ignore[type-abstract]  # isinstance is all it is used for
+        registration = next(r for r in self._registrations if (r.kind, r.name) == ("domain", name))
+        for attribute in ("name", "description", "settings", "default_setting", "instance_type"):
+            if not hasattr(domain, attribute):
+                raise PluginError(f"{registration.plugin}: domain {name!r} has no attribute {attribute!r}.")
+        if domain.default_setting not in domain.settings:
+            raise PluginError(
+                f"{registration.plugin}: the default setting {domain.default_setting!r} of domain {name!r} is none of "
+                f"its settings: {', '.join(domain.settings) or 'none'}."
+            )
         if domain.name != name:
             raise PluginError(f"domain {name!r} is registered under another name than its own, {domain.name!r}.")
         return domain
@@ -190,6 +199,16 @@ class Registry:
     def backend(self, name: str, settings: BackendSettings | None = None) -> LLMBackend:
         """The model backend of this name; raises like :meth:`domain`."""
         return self._make(LLMBackend, "backend", name, settings or BackendSettings())  # type: ignore[type-abstract]  # as above
+
+
+def _made(registration: Registration, arguments: tuple[Any, ...]) -> Any:
+    try:
+        return registration.factory(*arguments)
+    except LLM3Error:
+        raise
+    except (Exception, SystemExit) as error:
+        what = f"{registration.kind} {registration.name!r} cannot be made"
+        raise PluginError(f"{registration.plugin}: {what}: {type(error).__name__}: {error}") from error
 
 
 def _distribution(entry_point: metadata.EntryPoint) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
+from llm3.guarded import guarded
 from llm3.interfaces import Env, MotionPlanner
 from llm3.seeding import generator
 from llm3.types import (
@@ -15,10 +16,12 @@ from llm3.types import (
     MotionProblem,
     NoMotion,
     Outcome,
+    Path,
     PlannedAction,
     Rejected,
     State,
     Stats,
+    Transition,
 )
 
 
@@ -54,6 +57,10 @@ class Rollout:
     """Where the last feasible action led."""
 
 
+Tell = Callable[[int, State, Outcome, PlannedAction | None], None]
+"""Is told of an action's place in the plan, the state before it, its outcome and, if it is feasible, how it is done."""
+
+
 class Roller:
     """Rolls out plans in one world, and remembers and counts what it did."""
 
@@ -74,14 +81,14 @@ class Roller:
         self,
         start: State,
         actions: Sequence[Action | Rejected],
-        observe: Callable[[int, Outcome], None] = lambda _index, _outcome: None,
+        observe: Tell = lambda _index, _before, _outcome, _step: None,
     ) -> Rollout:
         """Try the actions one after another until one fails.
 
         Args:
             start: Where the first action begins.
             actions: A whole plan; a `Rejected` item fails when it is reached.
-            observe: Called with the place and the outcome of each action, as it happens.
+            observe: Called for each action as it happens.
         """
         state = start
         outcomes: list[Outcome] = []
@@ -89,7 +96,7 @@ class Roller:
         for index, action in enumerate(actions):
             outcome, step = self._try(state, action)
             outcomes.append(outcome)
-            observe(index, outcome)
+            observe(index, state, outcome, step)
             if step is None:
                 break
             plan.append(step)
@@ -115,13 +122,15 @@ class Roller:
 
     def _evaluate(self, state: State, action: Action, tries: int) -> Verdict:
         with self._phase("prepare"):
-            answer = self._env.prepare(state, action, generator("prepare", self._seed, state, action, tries))
+            rng = generator("prepare", self._seed, state, action, tries)
+            answer = guarded(self._env.prepare, (MotionProblem, NoMotion, Failure), state, action, rng)
         self.stats += answer.stats
         if isinstance(answer, MotionProblem) or (isinstance(answer, Failure) and answer.kind.is_motion):
             self.stats += Stats(motion_calls=1)
         if isinstance(answer, MotionProblem):
             with self._phase("plan"):
-                path = self._planner.plan(answer, generator("plan", self._seed, state, action, tries))
+                rng = generator("plan", self._seed, state, action, tries)
+                path = guarded(self._planner.plan, (Path, Failure), answer, rng)
             self.stats += path.stats
             if isinstance(path, Failure):
                 return Verdict(failure=path)
@@ -131,7 +140,7 @@ class Roller:
         else:
             return Verdict(failure=answer)
         with self._phase("apply"):
-            transition = self._env.apply(state, action, motion)
+            transition = guarded(self._env.apply, (Transition,), state, action, motion)
         return Verdict(PlannedAction(action, motion, transition.state), transition.notes)
 
     @contextmanager

@@ -6,21 +6,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
-from llm3.errors import UsageError
+from llm3.errors import PluginError, UsageError
+from llm3.guarded import guarded
 from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner
 from llm3.parsing import parse_reply
 from llm3.prompts import Prompt
-from llm3.rollout import Roller
+from llm3.rollout import Roller, Tell
 from llm3.seeding import derive_seed
 from llm3.trace import Trace
 from llm3.types import (
     ActionTried,
     Attempt,
     AttemptEnded,
+    Completion,
     Context,
+    Entity,
     Failure,
+    Feedback,
+    GoalStatus,
     Observer,
-    Outcome,
     PlannedAction,
     PromptSent,
     ReplyRead,
@@ -30,6 +34,7 @@ from llm3.types import (
     RunEnded,
     RunStarted,
     Sketch,
+    State,
     Stats,
     nobody,
 )
@@ -84,43 +89,57 @@ def solve(
     Raises:
         LLM3Error: The program cannot go on, such as when no server answers. What the robot cannot do is no error.
     """
-    start = env.reset()
+    if prompt.strategy.fixed_sequence and not skeleton:
+        raise UsageError(
+            f"the strategy's template {prompt.strategy.template!r} needs a skeleton: the given action sequence."
+        )
+
+    def goal_of(state: State) -> GoalStatus:
+        return guarded(env.goal, (GoalStatus,), state)
+
+    start = guarded(env.reset, (State,))
     observer(RunStarted(start))
     roller = Roller(env, planner, seed, clock)
     trace, stats = Trace(budget.trace_size), Stats()
     attempts: list[Attempt] = []
-    goal = env.goal(start)
+    goal = goal_of(start)
     plan: tuple[PlannedAction, ...] = ()
     solved = False
     while not solved and len(attempts) < budget.max_llm_calls:
         number = len(attempts) + 1
-        context = Context(env.task, env.schemas, env.objects, env.describe(start), trace.entries, skeleton=skeleton)
+        context = context_of(env, start, trace.entries, skeleton)
         request = Request(prompt.render(context), context, derive_seed("request", seed, number))
         observer(PromptSent(number, request.messages))
         began = clock()
-        completion = backend.complete(request)
+        completion = guarded(backend.complete, (Completion,), request)
         stats += completion.stats + Stats(llm_calls=1, seconds={"model": clock() - began})
         observer(ReplyReceived(number, completion))
 
-        proposal = parse_reply(completion.text, env.schemas, env.objects, skeleton)
-        observer(ReplyRead(number, proposal))
-        if isinstance(proposal, Failure):  # an attempt with no actions
-            stats += Stats(unreadable_replies=1)
-            rolled = roller.rollout(start, ())
-            attempt = Attempt(number, env.goal(rolled.state), unreadable=proposal)
-        else:
-            rolled = roller.rollout(start, proposal.actions, _teller(observer, number))
-            attempt = Attempt(number, env.goal(rolled.state), proposal, outcomes=rolled.outcomes)
-        goal, plan = attempt.goal, rolled.plan
+        reading = parse_reply(completion.text, env.schemas, env.objects, skeleton)
+        observer(ReplyRead(number, reading))
+        proposal, unreadable = (None, reading) if isinstance(reading, Failure) else (reading, None)
+        rolled = roller.rollout(start, proposal.actions if proposal else (), _teller(observer, number))
+        goal, plan = goal_of(rolled.state), rolled.plan
+        attempt = Attempt(number, goal, proposal, unreadable, rolled.outcomes)
         solved = goal.achieved
         attempts.append(attempt)
-        words = None if solved else feedback.synthesize(attempt)
+        words = None if solved else guarded(feedback.synthesize, (Feedback, type(None)), attempt)
         trace = trace.add(attempt, words)
+        stats += Stats(unreadable_replies=int(unreadable is not None))
         observer(AttemptEnded(attempt, words, stats + roller.stats))
     result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start)
     observer(RunEnded(result))
     return result
 
 
-def _teller(observer: Observer, attempt: int) -> Callable[[int, Outcome], None]:
-    return lambda index, outcome: observer(ActionTried(attempt, index, outcome))
+def context_of(env: Env, start: State, trace: tuple[Feedback, ...] = (), skeleton: tuple[Sketch, ...] = ()) -> Context:
+    """What a prompt is rendered from: the problem, its initial state, and what is told of earlier attempts."""
+    entities = guarded(env.describe, (tuple, list), start)
+    for entity in entities:
+        if not isinstance(entity, Entity):
+            raise PluginError(f"{type(env).__name__}.describe must answer a tuple of Entity, not of {entity!r}.")
+    return Context(env.task, env.schemas, env.objects, tuple(entities), trace, skeleton)
+
+
+def _teller(observer: Observer, attempt: int) -> Tell:
+    return lambda index, before, outcome, step: observer(ActionTried(attempt, index, before, outcome, step))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from llm3.errors import InputError
 from llm3.interfaces import Env, Joint
 from llm3.types import (
     Action,
@@ -46,11 +47,19 @@ class BoxpackEnv(Env):
             instance: The problem.
             workcell: The robot and its simulators; the Env owns them from now on.
             wall_height: Height of the basket's walls in metres; 0 for none.
+
+        Raises:
+            InputError: Something stands where the arm starts.
         """
         self._instance, self._cell, self._wall_height = instance, workcell, wall_height
         self._furniture = furniture(instance.basket, wall_height)
         boxes = {box.name: box for box in instance.boxes}
         self._manipulation = Manipulation(boxes, self._furniture, instance.basket, workcell.gripper)
+        start = self.reset()
+        contacts = workcell.checker.view(self.scene(start)).contacts(np.array(start.configuration))
+        if contacts:
+            touched = ", ".join(dict.fromkeys(contact.object for contact in contacts))
+            raise InputError(f"the arm touches {touched} where it starts: move it farther from the arm.")
 
     @property
     def task(self) -> str:
@@ -94,7 +103,7 @@ class BoxpackEnv(Env):
         if isinstance(ways, Failure):
             return ways
         start = np.array(state.configuration)
-        goals, failure, stats = self._cell.touchdowns.goals(ways, start, rng)
+        goals, failure, stats = self._cell.touchdowns.goals(ways, start, CLEARANCE, rng)
         if failure:
             return failure
         scene = self.scene(state)

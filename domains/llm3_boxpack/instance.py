@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, isfinite, sin
 
+from llm3.types import ITSELF
 from llm3_boxpack.rectangles import Rectangle
 
 TRAY_THICKNESS = 0.01
@@ -12,8 +13,10 @@ TRAY_THICKNESS = 0.01
 TABLE = Rectangle((0.5, 0.0), (2.0, 3.0))
 """The table's top, in metres: it reaches farther than the arm on all sides."""
 WALLS = ("basket_wall_front", "basket_wall_back", "basket_wall_right", "basket_wall_left")
-RESERVED = ("table", "basket", *WALLS, "itself")
+RESERVED = ("table", "basket", *WALLS, ITSELF)
 """Names that failures use for what is no box."""
+MOST_BOXES = 100
+"""A plan of more than 200 actions would not be read, and each box takes two."""
 ON_TABLE = "such that all of it is on the table, x -0.5 to 1.5 m and y -1.5 to 1.5 m"
 
 
@@ -76,9 +79,11 @@ class BoxpackInstance:
     boxes: tuple[BoxSpec, ...]
 
     def __post_init__(self) -> None:
-        if not self.boxes:
-            raise ValueError("there must be at least one box")
+        if not 1 <= len(self.boxes) <= MOST_BOXES:
+            raise ValueError(f"there must be 1 to {MOST_BOXES} boxes, not {len(self.boxes)}")
         for index, box in enumerate(self.boxes):
+            if self.basket.area.overlaps(box.footprint) and self.basket.area.overhang(box.footprint) > 0:
+                raise ValueError(f"{box.name} starts on the basket's edge; it must be all inside or all outside")
             for other in self.boxes[:index]:
                 if box.name == other.name:
                     raise ValueError(f"two boxes are called {box.name}")

@@ -58,11 +58,13 @@ class Manipulation:
     def _pick(self, poses: Poses, name: str, pose: NDArray[np.float64], grasp: Grasp) -> Touchdown:
         held = Held(name, as_pose(np.linalg.inv(grasp.tool) @ pose))
         others = {other: p for other, p in poses.items() if other != name}
-        opening = grasp.width + OPENING_MARGIN
+        opening = round(grasp.width + OPENING_MARGIN, 4)
+        lifted = self.scene(others, held, grasp.width)
         return Touchdown(
             grasp.tool,
             down=self.scene(poses, None, opening),
-            up=self.scene(others, held, grasp.width),
+            up=lifted,
+            after=lifted,
             before=(Event(EventKind.GRIPPER, opening=opening),),
             bottom=(
                 Event(EventKind.GRIPPER, opening=grasp.width),
@@ -83,11 +85,13 @@ class Manipulation:
         target = np.eye(4)
         target[:3, :3] = standing.orientation(theta)
         target[:3, 3] = (x, y, below + standing.extent[2] / 2 + DROP)
-        opening = held_width(box.size, grasp, self._gripper) + OPENING_MARGIN
+        opening = round(held_width(box.size, grasp, self._gripper) + OPENING_MARGIN, 4)
+        released = {**state.poses, name: as_pose(target)}
         down = Touchdown(
             target @ np.linalg.inv(grasp),
             down=self.transit_scene(state),
-            up=self.scene({**state.poses, name: as_pose(target)}, None, opening),
+            up=self.scene(released, None, opening),
+            after=self.scene(released, None, self._gripper.max_opening),
             before=(),
             bottom=(Event(EventKind.DETACH, object=name), Event(EventKind.GRIPPER, opening=opening)),
         )

@@ -14,7 +14,7 @@ from math import hypot, inf
 import numpy as np
 
 from llm3.parsing import parse_reply
-from llm3.types import Action, Context, Entity, Feedback, Proposal
+from llm3.types import Action, Context, Entity, FailureKind, Feedback, Proposal
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.packing import Spot, Wishes, choose_spot
 
@@ -33,18 +33,18 @@ class Lesson:
     placed: tuple[Action, ...]
     """The placements that worked, in order."""
     failed: Action | None
-    text: str
-    """What the feedback says of the failed action."""
+    kind: FailureKind | None
+    """Why it failed, where the feedback tells."""
 
     @property
     def out_of_reach(self) -> bool:
         """Whether a placement failed because the arm does not get there."""
-        return self.failed is not None and self.failed.name == PLACE.name and "reach" in self.text and not self.touching
+        return self.failed is not None and self.failed.name == PLACE.name and self.kind is FailureKind.UNREACHABLE
 
     @property
     def touching(self) -> bool:
         """Whether something was in the way."""
-        return "in collision" in self.text
+        return self.kind is FailureKind.GOAL_IN_COLLISION
 
 
 def reply(context: Context, rng: np.random.Generator) -> str:
@@ -69,10 +69,10 @@ def _lesson(context: Context, feedback: Feedback) -> Lesson:
     for remark in feedback.remarks:
         action = _action(context, remark.action)
         if remark.verdict == "failed":
-            return Lesson(tuple(placed), action, remark.text)
+            return Lesson(tuple(placed), action, remark.kind)
         if action and action.name == PLACE.name and remark.verdict == "feasible":
             placed.append(action)
-    return Lesson(tuple(placed), None, feedback.summary)
+    return Lesson(tuple(placed), None, None)
 
 
 def _action(context: Context, text: str) -> Action | None:

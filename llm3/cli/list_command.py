@@ -5,8 +5,10 @@ from __future__ import annotations
 import inspect
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
+from typing import TextIO
 
 from llm3.cli.text import emit, printable
+from llm3.errors import LLM3Error
 from llm3.jsonio import dumps
 from llm3.registry import HOOKS, Registration, Registry
 
@@ -16,7 +18,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     registry = Registry.discover()
     if arguments.json:
@@ -27,9 +29,9 @@ def run(arguments: Namespace) -> int:
             ]
             for kind in HOOKS
         }
-        emit(dumps({**found, "broken": registry.broken}) + "\n")
+        emit(dumps({**found, "broken": registry.broken}) + "\n", out)
     else:
-        emit("".join(f"{line}\n" for line in _table(registry)))
+        emit("".join(f"{line}\n" for line in _table(registry)), out)
     return 0
 
 
@@ -56,7 +58,9 @@ def _description(registry: Registry, registration: Registration) -> str:
             return f"{domain.description} Settings: {', '.join(domain.settings)}."
         if registration.kind == "strategy":
             return registry.strategy(registration.name).description
-    except Exception as error:  # a broken plugin is what this list is there to show
+    except LLM3Error as error:  # a broken plugin is what this list is there to show
+        return str(error)
+    except Exception as error:
         return f"cannot be made: {type(error).__name__}: {error}"
     documented = inspect.isroutine(registration.factory) or inspect.isclass(registration.factory)
     return (inspect.getdoc(registration.factory) or "").partition("\n")[0] if documented else ""

@@ -7,10 +7,14 @@ import sys
 import traceback
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Sequence
-from typing import NoReturn
+from contextlib import redirect_stdout
+from typing import TYPE_CHECKING, NoReturn
 
-from llm3.cli.text import emit, printable
+from llm3.cli.text import emit, open_streams, printable
 from llm3.errors import LLM3Error, UnknownName, UsageError
+
+if TYPE_CHECKING:
+    from _typeshed import SupportsWrite
 
 COMMANDS = {
     "run": "plan for one problem (the command that is meant when none is named)",
@@ -27,6 +31,9 @@ class CommandParser(ArgumentParser):
     def error(self, message: str) -> NoReturn:
         """Turn a complaint of argparse into an error of ours."""
         raise UsageError(f"{message}. See '{self.prog} --help'.")
+
+    def _print_message(self, message: str, file: SupportsWrite[str] | None = None) -> None:  # noqa: ARG002  # argparse's
+        emit(message, sys.stdout)  # --help and --version
 
     def read(self, arguments: Sequence[str]) -> Namespace:
         """Parse, and say what comes close to what is not known."""
@@ -71,6 +78,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     Returns:
         0 solved or done, 1 not solved, 2 a usage error, 3 any other error, 130 after Ctrl-C.
     """
+    open_streams()
     arguments = list(sys.argv[1:] if argv is None else argv)
     debug = "--debug" in arguments  # an argument that cannot be parsed may be what is wrong
     try:
@@ -80,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except LLM3Error as error:
         return _report(str(error), error.exit_code, debug)
-    except Exception as error:  # the last line of defence: one line instead of a traceback
+    except BaseException as error:  # the last line of defence, also against a plugin that calls sys.exit
         text = f"internal error: {type(error).__name__}: {error} (--debug shows the traceback)"
         return _report(text, LLM3Error.exit_code, debug)
 
@@ -93,9 +101,10 @@ def _run(arguments: list[str]) -> int:
     try:
         options = build_parser(command).read(rest)
     except SystemExit:  # --help and --version have said what there is to say
-        emit("")
         return 0
-    code: int = importlib.import_module(f"llm3.cli.{command}_command").run(options)
+    result = sys.stdout
+    with redirect_stdout(sys.stderr):  # what a plugin prints is no result
+        code: int = importlib.import_module(f"llm3.cli.{command}_command").run(options, result)
     return code
 
 

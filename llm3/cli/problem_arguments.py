@@ -26,7 +26,7 @@ def add_problem_arguments(parser: ArgumentParser) -> None:
 
 def add_world_arguments(parser: ArgumentParser) -> None:
     """Add ``--instance`` and ``-D``."""
-    parser.add_argument("--instance", type=Path, metavar="FILE", help="load the problem from a JSON file instead")
+    parser.add_argument("--instance", type=path, metavar="FILE", help="load the problem from a JSON file instead")
     parser.add_argument(
         "-D",
         dest="options",
@@ -67,9 +67,30 @@ def loaded_instance(domain: Domain, arguments: Namespace) -> Any:
     """
     if not arguments.instance:
         return None
-    if arguments.setting:
+    if arguments.setting is not None:
         raise UsageError("--setting and --instance both choose a problem: give one of them.")
     return read_file(arguments.instance, domain.instance_type)
+
+
+def chosen_options(arguments: Namespace) -> dict[str, str]:
+    """The domain's options that the user set.
+
+    Raises:
+        UsageError: One was set twice.
+    """
+    options: dict[str, str] = {}
+    for key, value in arguments.options:
+        if key in options:
+            raise UsageError(f"-D {key} is given twice: {key}={options[key]} and {key}={value}.")
+        options[key] = value
+    return options
+
+
+def path(text: str) -> Path:
+    """A path that names something, for arguments."""
+    if not text:
+        raise ArgumentTypeError("expected a path, not an empty text")
+    return Path(text)
 
 
 def _seed(text: str) -> int:

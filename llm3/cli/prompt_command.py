@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from typing import TextIO
 
 from llm3.assembly import choose_instance, given_skeleton, open_problem
 from llm3.cli.problem_arguments import (
@@ -10,13 +11,14 @@ from llm3.cli.problem_arguments import (
     add_prompt_arguments,
     add_world_arguments,
     chosen_domain,
+    chosen_options,
     loaded_instance,
 )
 from llm3.cli.text import emit
 from llm3.jsonio import dumps
 from llm3.prompts import Prompt
 from llm3.registry import Registry
-from llm3.types import Context
+from llm3.solve import context_of
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -27,7 +29,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--json", action="store_true", help="print the messages as JSON")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     registry = Registry.discover()
     domain = chosen_domain(registry, arguments)
@@ -37,10 +39,9 @@ def run(arguments: Namespace) -> int:
     if instance is None:
         instance = choose_instance(domain, arguments.setting, arguments.seed)
     skeleton = given_skeleton(domain, instance, strategy, arguments.strategy)
-    with open_problem(domain, instance, dict(arguments.options)) as problem:
+    with open_problem(domain, instance, chosen_options(arguments)) as problem:
         env = problem.env
-        context = Context(env.task, env.schemas, env.objects, env.describe(env.reset()), skeleton=skeleton)
-        messages = prompt.render(context)
+        messages = prompt.render(context_of(env, env.reset(), skeleton=skeleton))
     text = dumps(messages) if arguments.json else "\n\n".join(f"--- {m.role} ---\n\n{m.content}" for m in messages)
-    emit(text + "\n")
+    emit(text + "\n", out)
     return 0

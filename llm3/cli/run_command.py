@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from argparse import ArgumentParser, Namespace
 from datetime import datetime
 from pathlib import Path
+from typing import TextIO
 
 from llm3.assembly import RunConfig, assemble
 from llm3.cli.problem_arguments import (
@@ -12,7 +14,9 @@ from llm3.cli.problem_arguments import (
     add_prompt_arguments,
     add_world_arguments,
     chosen_domain,
+    chosen_options,
     loaded_instance,
+    path,
 )
 from llm3.cli.text import emit
 from llm3.jsonio import dumps
@@ -46,6 +50,20 @@ def add_arguments(parser: ArgumentParser) -> None:
         help=f"the motion planner (default: {_DEFAULT.planner})",
     )
     add(
+        "--planner-iterations",
+        type=int,
+        metavar="N",
+        default=_DEFAULT.planner_iterations,
+        help=f"the planner's budget for one query (default: {_DEFAULT.planner_iterations})",
+    )
+    add(
+        "--planner-seconds",
+        type=float,
+        metavar="S",
+        default=_DEFAULT.planner_seconds,
+        help=f"a guard on one query; a run that hits it may not repeat (default: {_DEFAULT.planner_seconds:g})",
+    )
+    add(
         "--max-llm-calls",
         type=int,
         metavar="N",
@@ -59,14 +77,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=_DEFAULT.trace_size,
         help=f"how many earlier attempts a prompt tells of (default: {_DEFAULT.trace_size})",
     )
-    add("--out", type=Path, metavar="DIR", help="where the record goes (default: a new folder under runs/)")
+    add("--out", type=path, metavar="DIR", help="where the record goes (default: a new folder under runs/)")
     add("--force", action="store_true", help="overwrite the record in DIR")
     add("--gui", action="store_true", help="open the domain's window")
     add("--json", action="store_true", help="print one JSON object instead of the plan")
     add("--quiet", action="store_true", help="no progress on stderr")
 
 
-def run(arguments: Namespace) -> int:
+def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command: 0 solved, 1 not solved."""
     from llm3.cli.view import RunView  # rich takes a while to import
 
@@ -82,9 +100,11 @@ def run(arguments: Namespace) -> int:
         model=arguments.model,
         temperature=arguments.temperature,
         planner=arguments.planner,
+        planner_iterations=arguments.planner_iterations,
+        planner_seconds=arguments.planner_seconds,
         max_llm_calls=arguments.max_llm_calls,
         trace_size=arguments.trace_size,
-        options=dict(arguments.options),
+        options=chosen_options(arguments),
     )
     view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
     with assemble(registry, config, loaded_instance(domain, arguments), arguments.gui) as ready:
@@ -106,11 +126,11 @@ def run(arguments: Namespace) -> int:
 
             result = ready.solve(observe)
         view.summary(result, record.seconds, folder)
-    if arguments.json:
-        emit(dumps(_summary(config, result, record.seconds, folder)) + "\n")
-    else:
-        emit("".join(f"{step.action}\n" for step in result.plan))
-    return 0 if result.solved else 1
+        if arguments.json:
+            emit(dumps(_summary(config, result, record.seconds, folder)) + "\n", out)
+        else:
+            emit("".join(f"{step.action}\n" for step in result.plan), out)
+        return 0 if result.solved else 1
 
 
 def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) -> dict[str, object]:
@@ -129,7 +149,7 @@ def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) ->
         "reused_actions": result.stats.reused_actions,
         "seconds": round(seconds, 3),
         "plan": [str(step.action) for step in result.plan],
-        "out": str(folder),
+        "out": os.fsencode(folder).decode(errors="replace"),
     }
 
 

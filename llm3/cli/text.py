@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from io import TextIOWrapper
 from typing import TextIO
 
 
@@ -13,13 +14,26 @@ def printable(text: str, keep_spaces: bool = False, indent: int = 0) -> str:
     return " " * indent + "".join(c if c.isprintable() else " " for c in line).rstrip()
 
 
-def emit(text: str) -> None:
-    """Write a result to stdout, now. A reader that has left, such as `head`, is no error."""
+def emit(text: str, out: TextIO) -> None:
+    """Write a result, now. A reader that has left, such as `head`, is no error."""
     try:
-        sys.stdout.write(text)
-        sys.stdout.flush()
+        out.write(text)
+        out.flush()
     except BrokenPipeError:
-        discard(sys.stdout)
+        discard(out)
+
+
+def open_streams() -> None:
+    """Make sure that stdout and stderr can be written to, also where they are closed or cannot spell a name."""
+    for name, descriptor in (("stdout", 1), ("stderr", 2)):
+        if getattr(sys, name) is None:  # closed by whoever started the program, as by ``2>&-``
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            if nowhere != descriptor:
+                os.dup2(nowhere, descriptor)
+                os.close(nowhere)
+            setattr(sys, name, os.fdopen(descriptor, "w", encoding="utf-8", closefd=False))
+        elif isinstance(stream := getattr(sys, name), TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def discard(stream: TextIO) -> None:

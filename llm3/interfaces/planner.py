@@ -9,6 +9,7 @@ from time import perf_counter
 
 import numpy as np
 
+from llm3.errors import UsageError
 from llm3.types import Failure, MotionProblem, Path
 
 
@@ -17,10 +18,16 @@ class PlannerSettings:
     """What a planner may spend on one query."""
 
     max_iterations: int = 2000
-    """The budget. Iterations, not seconds, so that a busy machine gives the same answer."""
+    """The budget, in iterations and not in seconds, so that a busy machine gives the same answer; 0 is no search."""
     max_seconds: float = 30.0
     """A guard against the unforeseen; a query that it cuts off is marked `time_limited`."""
     clock: Callable[[], float] = perf_counter
+
+    def __post_init__(self) -> None:
+        if self.max_iterations < 0:
+            raise UsageError(f"the planner's iterations must be 0 or more, not {self.max_iterations}.")
+        if not self.max_seconds > 0:
+            raise UsageError(f"the planner's seconds must be more than 0, not {self.max_seconds:g}.")
 
 
 class MotionPlanner(ABC):

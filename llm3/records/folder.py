@@ -36,10 +36,15 @@ def create_folder(folder: Path, force: bool = False) -> Path:
         OutputExists: It holds something already, and `force` is not given.
         LLM3Error: It cannot be made.
     """
+    if folder.exists() and not folder.is_dir():
+        raise OutputExists(f"'{folder}' is a file, not a folder: choose another.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         if any(folder.iterdir()) and not force:
             raise OutputExists(f"the output folder '{folder}' is not empty: choose another, or give --force.")
+        for name in RECORD_FILES:
+            if (folder / name).is_dir():
+                raise OutputExists(f"'{folder / name}' is a folder, so no record can be written there.")
         for name in RECORD_FILES:
             (folder / name).unlink(missing_ok=True)
     except OSError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -15,7 +16,7 @@ from llm3.assembly import Run, RunConfig
 from llm3.errors import LLM3Error
 from llm3.jsonio import dumps, pretty, to_builtins
 from llm3.records.plan import plan_file
-from llm3.types import AttemptEnded, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
+from llm3.types import ActionTried, AttemptEnded, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
 
 RUN_FORMAT = "llm3-run/1"
 EVENTS_FORMAT = "llm3-events/1"
@@ -118,8 +119,9 @@ class Recorder:
     def _write(self) -> None:
         self._file = replace(self._file, seconds=round(self.seconds, 3))
         # Written beside and moved into place: a run that is killed leaves the old file or the new one.
-        beside = self.folder / "run.json.new"
-        beside.write_text(pretty(self._file), encoding="utf-8")
+        beside = self.folder / f"run.json.{os.getpid()}.new"
+        with beside.open("x", encoding="utf-8") as file:
+            file.write(pretty(self._file))
         beside.replace(self.folder / "run.json")
 
     def _line(self, data: Mapping[str, Any]) -> None:
@@ -148,6 +150,8 @@ def _fields(event: RunEvent) -> dict[str, Any]:
             "feedback": event.feedback,
             "stats": event.stats,
         }
+    if isinstance(event, ActionTried) and event.outcome.reused:
+        return {"attempt": event.attempt, "index": event.index, "outcome": event.outcome}
     if isinstance(event, RunEnded):
         return {"solved": event.result.solved, "stats": event.result.stats}
     return {name: getattr(event, name) for name in event.__dataclass_fields__}

@@ -15,7 +15,7 @@ from llm3.types.events import (
     RunStarted,
     nobody,
 )
-from llm3.types.failures import Contact, Failure, FailureKind
+from llm3.types.failures import ITSELF, Contact, Failure, FailureKind
 from llm3.types.frozen import FrozenDict
 from llm3.types.motion import (
     Event,
@@ -35,6 +35,7 @@ from llm3.types.state import Fact, GoalStatus, Held, Pose, State, Transition
 from llm3.types.stats import Stats
 
 __all__ = [
+    "ITSELF",
     "Action",
     "ActionSchema",
     "ActionTried",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from llm3.types.checks import finite, texts
 from llm3.types.frozen import FrozenDict
 
 
@@ -17,6 +18,11 @@ class Parameter:
     high: float
     unit: str = ""
     """The unit as the model reads it, such as ``"m"`` or ``"rad"``."""
+
+    def __post_init__(self) -> None:
+        finite(f"the range of parameter {self.name!r}", (self.low, self.high))
+        if self.low > self.high:
+            raise ValueError(f"parameter {self.name!r} has a range from {self.low} to {self.high}, which is empty")
 
 
 @dataclass(frozen=True)
@@ -33,6 +39,15 @@ class ActionSchema:
     description: str = ""
     """One sentence for the model, without a full stop, such as ``"pick up the box from above"``."""
 
+    def __post_init__(self) -> None:
+        if not self.name.isidentifier():
+            raise ValueError(f"an action's name must be letters, digits and underscores, not {self.name!r}")
+        object.__setattr__(self, "objects", texts(f"the objects of action {self.name!r}", self.objects))
+        object.__setattr__(self, "parameters", tuple(self.parameters))
+        names = [parameter.name for parameter in self.parameters]
+        if len(set(names)) < len(names):
+            raise ValueError(f"action {self.name!r} has two parameters of one name: {', '.join(names)}")
+
 
 @dataclass(frozen=True)
 class Action:
@@ -44,7 +59,7 @@ class Action:
     """Values by parameter name, in the schema's order and units."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "objects", tuple(self.objects))
+        object.__setattr__(self, "objects", texts(f"the objects of {self.name!r}", self.objects))
         # -0.0 is made 0.0: equal actions must be written alike, for their text seeds what is drawn for them.
         object.__setattr__(self, "params", FrozenDict({k: float(v) + 0.0 for k, v in self.params.items()}))
 

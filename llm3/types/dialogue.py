@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
+
+import numpy as np
 
 from llm3.types.actions import ActionSchema
+from llm3.types.checks import finite, texts
+from llm3.types.failures import FailureKind
 from llm3.types.frozen import FrozenDict
 from llm3.types.stats import Stats
 
@@ -34,7 +38,18 @@ class Entity:
     """Such as ``{"position": (0.39, -0.2, 0.035), "size": (0.07, 0.07, 0.07), "yaw": 0.0}``; SI units."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "properties", FrozenDict(self.properties))
+        properties = {name: _property(self.name, name, value) for name, value in self.properties.items()}
+        object.__setattr__(self, "properties", FrozenDict(properties))
+
+
+def _property(entity: str, name: str, value: Any) -> Property:
+    """The value as plain Python: numpy's scalars and arrays become numbers and tuples."""
+    plain = value.tolist() if isinstance(value, np.generic | np.ndarray) else value
+    if isinstance(plain, list | tuple):
+        return finite(f"{name} of {entity}", plain)
+    if isinstance(plain, str | int | float):
+        return plain
+    raise TypeError(f"{name} of {entity} must be a text, a number or a tuple of numbers, not {value!r}")
 
 
 @dataclass(frozen=True)
@@ -43,6 +58,9 @@ class Sketch:
 
     name: str
     objects: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", texts(f"the objects of {self.name!r}", self.objects))
 
     def __str__(self) -> str:
         return f"{self.name}({list(self.objects)!r}, ...)"
@@ -57,6 +75,8 @@ class Remark:
     verdict: Literal["feasible", "failed", "not tried"]
     text: str = ""
     """Why, or what happened besides."""
+    kind: FailureKind | None = None
+    """The kind of failure that the text tells, for stand-ins, which cannot read prose; None if it tells none."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +106,9 @@ class Context:
     """Earlier attempts, oldest first."""
     skeleton: tuple[Sketch, ...] = ()
     """The given action sequence, for strategies that fix it."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", texts("the objects of an Env", self.objects))
 
 
 @dataclass(frozen=True)

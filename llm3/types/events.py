@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from llm3.types.attempts import Attempt, Outcome, Proposal
 from llm3.types.dialogue import Completion, Feedback, Message
 from llm3.types.failures import Failure
-from llm3.types.results import Result
+from llm3.types.results import PlannedAction, Result
 from llm3.types.state import State
 from llm3.types.stats import Stats
 
@@ -51,7 +51,11 @@ class ActionTried:
     attempt: int
     index: int
     """Its place in the plan, from 0."""
+    before: State
+    """Where it begins."""
     outcome: Outcome
+    step: PlannedAction | None = None
+    """How it is done and where it leads, if it is feasible."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from llm3.types.checks import texts
 from llm3.types.frozen import FrozenDict
 from llm3.types.stats import Stats
 
@@ -49,18 +50,24 @@ _MOTION_KINDS = frozenset(
 )
 
 
+ITSELF = "itself"
+"""What the robot touches when one of its parts touches another."""
+
+
 @dataclass(frozen=True)
 class Contact:
     """Two things that touch, or come closer than they may."""
 
     part: str
-    """What touches, from the robot's side, such as ``"arm"``, ``"gripper"`` or ``"held box"``."""
+    """What touches, from the robot's side, such as ``"arm"``, ``"gripper"`` or ``"held red_box"``."""
     object: str
-    """What is touched."""
+    """What is touched; `ITSELF` for another part of the robot."""
     depth: float = 0.0
     """Penetration in metres; negative is a remaining gap."""
     normal: tuple[float, ...] = ()
     """Unit vector in the world frame that points from the object to the part: the way out."""
+    point: tuple[float, ...] = ()
+    """Where on the object, in metres, in the world frame."""
 
 
 @dataclass(frozen=True)
@@ -74,10 +81,13 @@ class Failure:
     """The objects that are to blame, the most important first."""
     contacts: tuple[Contact, ...] = ()
     """What touched what, the deepest first."""
+    configuration: tuple[float, ...] = ()
+    """The robot's configuration that the contacts are of, or that came closest; joint values as in a state."""
     measures: Mapping[str, float] = field(default_factory=FrozenDict)
     """Figures by name, such as ``{"position_error": 0.05}``; metres, radians or counts."""
     stats: Stats = field(default=Stats(), compare=False)
     """What it cost to find out."""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "objects", texts("the objects of a failure", self.objects))
         object.__setattr__(self, "measures", FrozenDict(self.measures))

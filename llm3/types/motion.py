@@ -9,6 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from llm3.types.checks import finite
 from llm3.types.failures import Contact
 from llm3.types.state import Pose
 from llm3.types.stats import Stats
@@ -64,7 +65,13 @@ class Motion:
 
     @property
     def end(self) -> tuple[float, ...]:
-        """The configuration in which the motion ends."""
+        """The configuration in which the motion ends.
+
+        Raises:
+            ValueError: There is no motion, so the robot is where the state says.
+        """
+        if not self.segments:
+            raise ValueError("this action has no motion: the robot stays in state.configuration")
         return self.segments[-1].waypoints[-1]
 
     @property
@@ -82,6 +89,9 @@ class Goal:
 
     configuration: tuple[float, ...]
     then: tuple[Segment, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "configuration", finite("a goal's configuration", self.configuration))
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +124,7 @@ class MotionProblem:
 
     def __post_init__(self) -> None:
         start = np.array(self.start, dtype=float)
+        finite("a start's configuration", start.ravel())
         if start.ndim != 1:
             raise ValueError(f"start must be one configuration of shape (dof,), not {start.shape}")
         if not self.goals:

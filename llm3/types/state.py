@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
+import numpy as np
+
+from llm3.types.checks import finite, texts
 from llm3.types.frozen import FrozenDict
 
 LENGTH_DECIMALS = 4
@@ -15,7 +19,7 @@ QUATERNION_DECIMALS = 5
 """A quaternion's components are half-angles: 1e-5 keeps rotations well within 1e-4 rad."""
 
 Fact = bool | int | float | str
-"""The value of a fact: JSON-safe, and equal only to itself."""
+"""The value of a fact. Keep to one type a name: True, 1 and 1.0 are equal in Python, but not in a record."""
 
 
 def rounded(values: Iterable[float], decimals: int) -> tuple[float, ...]:
@@ -35,11 +39,13 @@ class Pose:
     def __post_init__(self) -> None:
         if len(self.position) != 3 or len(self.orientation) != 4:
             raise ValueError("a pose has a position of 3 numbers and an orientation of 4 (x, y, z, w)")
+        if not 0.99 < sum(c * c for c in self.orientation) < 1.01:
+            raise ValueError(f"an orientation is a unit quaternion x, y, z, w, not {tuple(self.orientation)}")
         quaternion = rounded(self.orientation, QUATERNION_DECIMALS)
         last = next((c for c in reversed(quaternion) if c), 0.0)
         if last < 0:
             quaternion = rounded((-c for c in quaternion), QUATERNION_DECIMALS)
-        object.__setattr__(self, "position", rounded(self.position, LENGTH_DECIMALS))
+        object.__setattr__(self, "position", rounded(finite("a position", self.position), LENGTH_DECIMALS))
         object.__setattr__(self, "orientation", quaternion)
 
 
@@ -50,6 +56,13 @@ class Held:
     object: str
     grasp: Pose
     """The object's pose in the tool frame."""
+
+
+def _fact(name: str, value: Any) -> Fact:
+    plain = value.item() if isinstance(value, np.generic) else value
+    if not isinstance(plain, Fact):
+        raise TypeError(f"fact {name!r} must be a bool, a number or a text, not {value!r}")
+    return rounded(finite(f"fact {name!r}", (plain,)), LENGTH_DECIMALS)[0] if isinstance(plain, float) else plain
 
 
 @dataclass(frozen=True)
@@ -68,12 +81,12 @@ class State:
     """Whatever else the future depends on, such as ``{"door_open": True}``. Floats are rounded like lengths."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "poses", FrozenDict(self.poses))
-        object.__setattr__(self, "configuration", rounded(self.configuration, ANGLE_DECIMALS))
-        facts = {
-            name: rounded((v,), LENGTH_DECIMALS)[0] if isinstance(v, float) else v for name, v in self.facts.items()
-        }
-        object.__setattr__(self, "facts", FrozenDict(facts))
+        object.__setattr__(self, "poses", FrozenDict(sorted(self.poses.items())))
+        object.__setattr__(
+            self, "configuration", rounded(finite("a configuration", self.configuration), ANGLE_DECIMALS)
+        )
+        facts = {name: _fact(name, value) for name, value in self.facts.items()}
+        object.__setattr__(self, "facts", FrozenDict(sorted(facts.items())))
 
 
 @dataclass(frozen=True)
@@ -84,6 +97,7 @@ class GoalStatus:
     unmet: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "unmet", texts("what is unmet of a goal", self.unmet))
         if self.achieved == bool(self.unmet):
             raise ValueError("a goal is either achieved or has unmet parts: name each of them in `unmet`")
 
@@ -95,3 +109,6 @@ class Transition:
     state: State
     notes: tuple[str, ...] = ()
     """Sentences such as ``"red_box slid 12 mm"``, which every model is told."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "notes", texts("the notes of a transition", self.notes))

@@ -38,12 +38,12 @@ class BiRRT(MotionPlanner):
         start, goals = problem.start, np.array([goal.configuration for goal in problem.goals])
         start_free, *goals_free = space.free(np.vstack([start, goals]))
         if not start_free:
-            contacts = problem.explain(start)
-            return _collision(FailureKind.START_IN_COLLISION, contacts, _spent(space, budget))
+            at = problem.start, problem.explain(start)
+            return _collision(FailureKind.START_IN_COLLISION, *at, _spent(space, budget))
         candidates = np.flatnonzero(goals_free)
         if not len(candidates):
-            contacts = _nearest_to_free(problem, goals)
-            return _collision(FailureKind.GOAL_IN_COLLISION, contacts, _spent(space, budget))
+            at = _nearest_to_free(problem, goals)
+            return _collision(FailureKind.GOAL_IN_COLLISION, *at, _spent(space, budget))
 
         for index in candidates:
             if space.edge(start, goals[index]):
@@ -65,16 +65,16 @@ def _spent(space: FreeSpace, budget: Budget) -> Stats:
     )
 
 
-def _collision(kind: FailureKind, contacts: tuple[Contact, ...], stats: Stats) -> Failure:
+def _collision(kind: FailureKind, q: Vector, contacts: tuple[Contact, ...], stats: Stats) -> Failure:
     deepest_first = tuple(sorted(contacts, key=lambda contact: -contact.depth))
     objects = tuple(dict.fromkeys(contact.object for contact in deepest_first))
-    return Failure(kind, objects=objects, contacts=deepest_first, stats=stats)
+    return Failure(kind, objects=objects, contacts=deepest_first, configuration=tuple(q.tolist()), stats=stats)
 
 
-def _nearest_to_free(problem: MotionProblem, goals: Vector) -> tuple[Contact, ...]:
-    """The contacts of the goal whose deepest one is the shallowest; a goal that cannot be explained comes last."""
-    explained = (problem.explain(goal) for goal in goals)
-    return min(explained, key=lambda contacts: max((c.depth for c in contacts), default=np.inf))
+def _nearest_to_free(problem: MotionProblem, goals: Vector) -> tuple[Vector, tuple[Contact, ...]]:
+    """The goal whose deepest contact is the shallowest, and its contacts; one that cannot be explained comes last."""
+    explained = ((goal, problem.explain(goal)) for goal in goals)
+    return min(explained, key=lambda found: max((c.depth for c in found[1]), default=np.inf))
 
 
 def _no_path(gap: Gap, stats: Stats) -> Failure:

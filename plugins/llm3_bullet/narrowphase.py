@@ -15,15 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from llm3.errors import InputError
-from llm3.types import Contact
+from llm3.types import ITSELF, Contact
 from llm3_bullet.clients import BulletClient, quiet
 from llm3_bullet.model import RobotModel
 from llm3_bullet.scene import Scene, Size
 
 Array = NDArray[np.float64]
-
-ITSELF = "itself"
-"""What the robot touches when it touches itself."""
 
 
 @dataclass(frozen=True)
@@ -98,11 +95,11 @@ class Narrowphase:
             for row in closest(self.robot, self._bodies[number], horizon):
                 link = row[3] + 1
                 if row[8] < clearance and not (box.fixed and link in self._mounted):
-                    yield Contact(self._parts[link], box.name, -row[8], row[7])
+                    yield Contact(self._parts[link], box.name, -row[8], row[7], row[6])
         for a, b in questions.pairs:
             for row in closest(self.robot, self.robot, horizon, b - 1, a - 1):
                 if row[8] < clearance:
-                    yield Contact(self._parts[b], ITSELF, -row[8], row[7])
+                    yield Contact(self._parts[b], ITSELF, -row[8], row[7], row[6])
         if scene.held is None or held is None:
             return
         self._client.resetBasePositionAndOrientation(self._held, *held)
@@ -110,11 +107,11 @@ class Narrowphase:
         for number in questions.held_boxes:
             for row in closest(self._held, self._bodies[number], horizon):
                 if row[8] < clearance:
-                    yield Contact(part, scene.boxes[number].name, -row[8], row[7])
+                    yield Contact(part, scene.boxes[number].name, -row[8], row[7], row[6])
         for link in questions.held_links:
             for row in closest(self._held, self.robot, horizon, -1, link - 1):
                 if row[8] < clearance:
-                    yield Contact(part, ITSELF, -row[8], row[7])
+                    yield Contact(part, ITSELF, -row[8], row[7], row[6])
 
     def link_distance(self, q: Array, pair: tuple[int, int], horizon: float = 0.3) -> float:
         """Distance in metres between two links in a configuration (dof,); at least the horizon if it is beyond."""

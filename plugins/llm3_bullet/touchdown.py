@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,10 @@ from llm3_bullet.straight import line_poses, straight_line
 Array = NDArray[np.float64]
 
 
+CUT_SHORT = "The arm can reach the spot, but it cannot come straight down on it and go straight up again."
+"""The detail of a failure `UNREACHABLE` where a joint limit, or a turn of the arm, interrupts the straight piece."""
+
+
 @dataclass(frozen=True, eq=False)
 class Touchdown:
     """One way to do it."""
@@ -33,6 +38,8 @@ class Touchdown:
     """What the robot must not touch on the way down, and what it holds then."""
     up: Scene
     """The same for the way up."""
+    after: Scene
+    """The same for the path that follows, which begins where the way up ends."""
     before: tuple[Event, ...]
     """What happens before the way down, such as opening the gripper to the width of a box."""
     bottom: tuple[Event, ...]
@@ -55,6 +62,22 @@ class TouchdownSettings:
     """How many goals are offered to the planner at most."""
 
 
+class _Views(NamedTuple):
+    """The checkers of a touchdown's scenes."""
+
+    down: SceneChecker
+    up: SceneChecker
+    after: SceneChecker
+
+
+@dataclass(frozen=True, eq=False)
+class _Blocked:
+    """A configuration on the way that is not free."""
+
+    configuration: Array
+    contacts: tuple[Contact, ...]
+
+
 class TouchdownPlanner:
     """Finds the configurations above a spot from which the robot can touch down and get away again."""
 
@@ -68,13 +91,14 @@ class TouchdownPlanner:
         self._kinematics, self._inverse, self._checker, self._settings = kinematics, inverse, checker, settings
 
     def goals(
-        self, options: Sequence[Touchdown], near: Array, rng: np.random.Generator
+        self, options: Sequence[Touchdown], near: Array, clearance: float, rng: np.random.Generator
     ) -> tuple[tuple[Goal, ...], Failure | None, Stats]:
         """Goals for the planner, or why there are none.
 
         Args:
             options: Ways to do it, the preferred first.
             near: The configuration (dof,) that the robot comes from; goals near it come first within an option.
+            clearance: What paths in free space keep, in metres: a goal has it too, or the next path could not begin.
             rng: For the starts of inverse kinematics.
 
         Returns:
@@ -83,8 +107,9 @@ class TouchdownPlanner:
             and what it cost.
         """
         goals: list[Goal] = []
-        blocked: list[tuple[Contact, ...]] = []
+        blocked: list[_Blocked] = []
         shortfalls: list[tuple[float, float]] = []
+        cut_short = False
         stats = Stats()
         for option in options:
             answer = self._inverse.solve(option.tool, rng, near=near)
@@ -92,42 +117,48 @@ class TouchdownPlanner:
             if not len(answer.solutions):
                 shortfalls.append((answer.position_error, answer.rotation_error))
                 continue
-            down, up = self._checker.view(option.down), self._checker.view(option.up)
-            for found in self._follow(option, down, up, answer.solutions):
+            views = _Views(*(self._checker.view(scene) for scene in (option.down, option.up, option.after)))
+            for found in self._follow(option, views, answer.solutions, clearance):
                 if isinstance(found, Goal):
                     goals.append(found)
-                elif found:
+                elif found.contacts:
                     blocked.append(found)
                 else:
-                    shortfalls.append((self._settings.height, 0.0))
+                    cut_short = True
                 if len(goals) == self._settings.enough:
                     break
-            stats += Stats(validity_checks=down.checks + up.checks)
+            stats += Stats(validity_checks=sum(view.checks for view in views))
             if len(goals) == self._settings.enough:
                 break
         if goals:
             return tuple(goals), None, stats
+        if not blocked and cut_short:
+            return (), Failure(FailureKind.UNREACHABLE, CUT_SHORT, stats=stats), stats
         return (), _failure(blocked, shortfalls, stats), stats
 
-    def _follow(
-        self, option: Touchdown, down: SceneChecker, up: SceneChecker, bottoms: Array
-    ) -> Iterator[Goal | tuple[Contact, ...]]:
-        """For each configuration at the bottom: a goal, the contacts that forbid it, or () if the line breaks off."""
+    def _follow(self, option: Touchdown, views: _Views, bottoms: Array, clearance: float) -> Iterator[Goal | _Blocked]:
+        """For each configuration at the bottom: a goal, or where it is blocked, without contacts if the line ends."""
         allowed = -self._settings.tolerance
-        top = option.tool.copy()
-        top[2, 3] += self._settings.height
-        lines, complete = straight_line(self._kinematics, bottoms, line_poses(option.tool, top, self._settings.spacing))
-        for bottom, line, followed in zip(bottoms, lines, complete, strict=True):
-            contacts = down.contacts(bottom, allowed) or up.contacts(bottom, allowed)
+        above = option.tool.copy()
+        above[2, 3] += self._settings.height
+        poses = line_poses(option.tool, above, self._settings.spacing)
+        for bottom, ascent, followed in zip(bottoms, *straight_line(self._kinematics, bottoms, poses), strict=True):
+            contacts = views.down.contacts(bottom, allowed) or views.up.contacts(bottom, allowed)
             if contacts or not followed:
-                yield contacts
+                yield _Blocked(bottom, contacts)
                 continue
-            rising = np.round(np.vstack([bottom, line]), ANGLE_DECIMALS) + 0.0  # states, too, are on this grid
+            rising = np.round(np.vstack([bottom, ascent]), ANGLE_DECIMALS) + 0.0  # states, too, are on this grid
             samples = self._samples(rising)
-            for view in (down, up):
-                free = view.valid(samples, allowed)
+            top = samples[-1:]
+            for view, line, gap in (
+                (views.down, samples, allowed),
+                (views.up, samples, allowed),
+                (views.after, top, clearance),
+            ):
+                free = view.valid(line, gap)
                 if not free.all():
-                    yield view.contacts(samples[int(np.argmin(free))], allowed)  # () where a joint limit is in the way
+                    q = line[int(np.argmin(free))]
+                    yield _Blocked(q, view.contacts(q, gap))  # no contacts where a joint limit is in the way
                     break
             else:
                 yield self._goal(option, rising)
@@ -151,7 +182,7 @@ class TouchdownPlanner:
         )
 
 
-def _failure(blocked: list[tuple[Contact, ...]], shortfalls: list[tuple[float, float]], stats: Stats) -> Failure:
+def _failure(blocked: list[_Blocked], shortfalls: list[tuple[float, float]], stats: Stats) -> Failure:
     if not blocked:
         position, rotation = min(shortfalls)
         return Failure(
@@ -159,6 +190,11 @@ def _failure(blocked: list[tuple[Contact, ...]], shortfalls: list[tuple[float, f
             measures={"position_error": position, "rotation_error": rotation},
             stats=stats,
         )
-    contacts = min(blocked, key=lambda found: (len({c.object for c in found}), max(c.depth for c in found)))
-    objects = tuple(dict.fromkeys(c.object for c in contacts))
-    return Failure(FailureKind.GOAL_IN_COLLISION, objects=objects, contacts=contacts, stats=stats)
+    least = min(blocked, key=lambda b: (len({c.object for c in b.contacts}), max(c.depth for c in b.contacts)))
+    return Failure(
+        FailureKind.GOAL_IN_COLLISION,
+        objects=tuple(dict.fromkeys(c.object for c in least.contacts)),
+        contacts=least.contacts,
+        configuration=tuple(least.configuration.tolist()),
+        stats=stats,
+    )

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import re
+
 from llm3.errors import UsageError
 
 MASK = "***"
 _PLACEHOLDER = 8
 """Shorter keys are words such as ``EMPTY`` or ``ollama``, which local servers ask for; texts may well contain them."""
+
+
+def _spellings(character: str) -> str:
+    """A pattern for a character as it is, and as JSON and Python escape it."""
+    code = f"{ord(character):02x}"
+    return rf"(?:{re.escape(character)}|\\+(?i:u00{code}|x{code}|U000000{code}))"
 
 
 class Secret:
@@ -39,8 +47,13 @@ class Secret:
         return self._value
 
     def redact(self, text: str) -> str:
-        """The text with ``***`` in place of the value; values of under eight characters are placeholders and stay."""
-        return text.replace(self._value, MASK) if len(self._value) >= _PLACEHOLDER else text
+        """The text with ``***`` in place of the value, also where some of its characters are written as escapes.
+
+        Values of under eight characters are placeholders and stay.
+        """
+        if len(self._value) < _PLACEHOLDER:
+            return text
+        return re.sub("".join(map(_spellings, self._value)), MASK, text)
 
     def __bool__(self) -> bool:
         return bool(self._value)

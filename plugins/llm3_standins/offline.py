@@ -5,13 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 from llm3 import BackendSettings, LLMBackend
+from llm3.errors import UsageError
 from llm3.interfaces import StandIn
 from llm3.types import Completion, Request
 from llm3_standins.sampler import RandomBackend
 
 
 def offline(settings: BackendSettings) -> LLMBackend:
-    """The domain's stand-in, or the random sampler with a notice that says so."""
+    """The domain's stand-in, or the random sampler with a notice that says so.
+
+    Raises:
+        UsageError: The domain offers nothing for either.
+    """
+    if settings.stand_in is None and not settings.skeleton:
+        raise UsageError(
+            f"domain {settings.domain!r} has no rule-based stand-in and no skeleton to draw parameters for: "
+            "give --model NAME or --llm scripted:FILE."
+        )
     if settings.stand_in is None:
         return RandomBackend(
             settings,

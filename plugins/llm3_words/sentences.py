@@ -9,12 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from llm3.types import Failure, FailureKind
+from llm3.types import ITSELF, Failure, FailureKind
 
 FEASIBLE = "The goal configuration is collision-free and reachable."
 FEASIBLE_AT_REST = "It is possible without any motion."
-ITSELF = "itself"
-"""The object of a contact between two parts of the robot."""
 
 
 def sentence_of(failure: Failure) -> str:
@@ -25,8 +23,10 @@ def sentence_of(failure: Failure) -> str:
         case FailureKind.START_IN_COLLISION:
             return _motion(f"The robot is in collision{_with(failure)} already where this action starts.", failure)
         case FailureKind.UNREACHABLE:
-            what = "The goal configuration has no inverse kinematics solution: it is out of the robot's reach."
-            return _motion(what + _involved(failure), failure)
+            what = "The goal configuration has no inverse kinematics solution"
+            if failure.detail:
+                return _motion(f"{what} for the whole motion.{_involved(failure)}", failure)
+            return f"{what}: it is out of the robot's reach.{_involved(failure)}"
         case FailureKind.NO_PATH:
             what = (
                 "The goal configuration is collision-free and reachable, but no collision-free path to it was found "

@@ -28,7 +28,8 @@ class _Remarks(FeedbackSynthesizer):
     def _remark(self, outcome: Outcome) -> Remark:
         why = self._why(outcome.failure) if outcome.failure else self._feasible(outcome.moved)
         text = " ".join(closed(part) for part in (why, *outcome.notes) if part)
-        return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text)
+        kind = outcome.failure.kind if outcome.failure and why else None
+        return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text, kind)
 
     @abstractmethod
     def _why(self, failure: Failure) -> str: ...

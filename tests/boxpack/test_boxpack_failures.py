@@ -7,8 +7,10 @@ import pytest
 from packing_world import BAR, BASKET, CUBE, POST, after, box, carried_out, moved, pick, place, problem, refused
 from scipy.spatial.transform import Rotation
 
-from llm3.errors import UsageError
+from llm3.errors import InputError, UsageError
 from llm3.types import FailureKind, State
+from llm3_boxpack.instance import BoxSpec
+from llm3_bullet.touchdown import CUT_SHORT
 
 RED, BLUE = box("red_box", 0.39, -0.2), box("blue_box", 0.39, 0.1)
 TWO = problem(RED, BLUE)
@@ -191,3 +193,29 @@ def test_walls_of_a_height_that_cannot_be_are_refused(domain, height):
     with pytest.raises(UsageError) as error:
         domain.make(TWO, {"walls": height})
     assert str(error.value) == f"option 'walls' must be a height from 0 to 0.2 m, not {height!r}."
+
+
+def test_a_box_inside_of_the_arm_is_refused_when_the_world_is_made(make):
+    with pytest.raises(InputError) as error:
+        make(problem(box("red_box", 0.0, 0.0)))
+    assert str(error.value) == "the arm touches red_box where it starts: move it farther from the arm."
+
+
+def test_a_grasp_that_leaves_no_clearance_to_go_on_from_is_no_goal(make):
+    """A bar right beside a tall box: the hand could come down, but the next path could not begin up there."""
+    tall = BoxSpec("blue_box", (0.07, 0.07, 0.25), (0.39, 0.1))
+    low = BoxSpec("green_box", BAR, (0.39 - 0.035 - 0.0525 - 0.003, 0.1))
+    env = make(problem(tall, low))
+    failure = refused(env, env.reset(), pick("green_box"))
+    assert failure.kind is FailureKind.GOAL_IN_COLLISION
+    assert failure.objects == ("blue_box",)
+    assert len(failure.configuration) == 7
+
+
+def test_a_spot_that_can_be_reached_but_not_from_above_is_told_apart(make):
+    """A box as tall as the arm is long: it can be put down, but the hand cannot rise above it."""
+    env = make(problem(BoxSpec("red_box", (0.04, 0.04, 0.5), (0.65, 0.3))))
+    failure = refused(env, env.reset(), pick("red_box"))
+    assert failure.kind is FailureKind.UNREACHABLE
+    assert failure.detail == CUT_SHORT
+    assert failure.measures == {}

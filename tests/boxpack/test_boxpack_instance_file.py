@@ -51,7 +51,7 @@ WRONG = [
     ("boxes.0.colour", "red", "unknown field `colour`, expected name, size, position, yaw - at `$.boxes[0]`"),
     ("boxes.1.name", "red_box", "two boxes are called red_box"),
     ("boxes.1.position", [0.39, -0.15], "red_box and blue_box start in one another"),
-    ("boxes", [], "there must be at least one box"),
+    ("boxes", [], "there must be 1 to 100 boxes, not 0"),
     ("boxes", {}, "Expected `array`, got `object` - at `$.boxes`"),
     ("basket.size", [0.22, 0.0], "the basket's sides must be 0.02 to 2 m, not [0.22, 0.0] - at `$.basket`"),
     ("basket.center", [3.0, 0.0], f"the basket's center must be {ON_TABLE}, not [3.0, 0.0] - at `$.basket`"),
@@ -122,3 +122,9 @@ def test_a_position_that_is_no_number_is_refused():
 def test_the_names_that_are_taken_are_those_of_the_furniture():
     names = [thing.name for thing in furniture(BasketSpec((0.65, 0.0), (0.22, 0.21)), 0.1)]
     assert [*names, "itself"] == TAKEN.split(", ")
+
+
+def test_a_box_starts_all_inside_or_all_outside_of_the_basket():
+    with pytest.raises(ValueError) as error:
+        BoxpackInstance(BasketSpec((0.65, 0.0), (0.22, 0.21)), (BoxSpec("red_box", (0.04, 0.04, 0.06), (0.521, 0.0)),))
+    assert str(error.value) == "red_box starts on the basket's edge; it must be all inside or all outside"

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from llm3.parsing import parse_reply
-from llm3.types import Action, Context, Entity, Feedback, Proposal, Remark, Sketch
+from llm3.types import Action, Context, Entity, FailureKind, Feedback, Proposal, Remark, Sketch
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.packing import SAME_SPOT
 from llm3_boxpack.stand_in import reply
@@ -27,8 +27,7 @@ STATE = (
 )
 CONTEXT = Context("Pack the boxes.", (PICK, PLACE), NAMES, STATE)
 SKELETON = tuple(Sketch(action, (name,)) for name in reversed(NAMES) for action in ("pick", "place"))
-COLLISION = "The goal configuration is in collision with red_box (touched by the gripper)."
-FAR = "The goal configuration has no inverse kinematics solution: it is out of the robot's reach."
+COLLISION, FAR = FailureKind.GOAL_IN_COLLISION, FailureKind.UNREACHABLE
 seeds = st.integers(0, 2**32)
 some = settings(max_examples=20)
 """A reply weighs hundreds of spots, so that each example takes a while."""
@@ -50,10 +49,10 @@ def placed(actions: tuple[Action, ...]) -> dict[str, Action]:
     return {action.objects[0]: action for action in actions if action.name == "place"}
 
 
-def feedback(number: int, actions: tuple[Action, ...], failed: int, text: str) -> Feedback:
+def feedback(number: int, actions: tuple[Action, ...], failed: int, kind: FailureKind | None) -> Feedback:
     """All feasible up to the one that failed."""
     remarks = [Remark(str(action), "feasible") for action in actions[:failed]]
-    remarks.append(Remark(str(actions[failed]), "failed", text))
+    remarks.append(Remark(str(actions[failed]), "failed", "as it says", kind))
     remarks += [Remark(str(action), "not tried") for action in actions[failed + 1 :]]
     return Feedback(number, tuple(remarks), "The goal is not reached: tan_box is not in the basket.")
 
@@ -88,7 +87,8 @@ remarks = st.builds(
     Remark,
     st.one_of(actions.map(str), st.text(max_size=40), st.just("place(['nobody'], {'x': 1})")),
     st.sampled_from(["feasible", "failed", "not tried"]),
-    st.one_of(st.just(""), st.just(COLLISION), st.just(FAR), st.text(max_size=40)),
+    st.text(max_size=40),
+    st.sampled_from([None, *FailureKind]),
 )
 traces = st.lists(
     st.builds(Feedback, st.integers(1, 20), st.lists(remarks, max_size=10).map(tuple), st.text(max_size=40)), max_size=5
@@ -160,10 +160,10 @@ class TestLearning:
     def next_plan(self, *trace: Feedback, seed: int = 1) -> tuple[Action, ...]:
         return plan(replace(CONTEXT, trace=trace), seed)
 
-    @pytest.mark.parametrize("text", [COLLISION, FAR, ""])
-    def test_it_keeps_what_worked_and_avoids_the_spot_that_failed(self, first, text):
+    @pytest.mark.parametrize("kind", [COLLISION, FAR, FailureKind.NO_PATH, None])
+    def test_it_keeps_what_worked_and_avoids_the_spot_that_failed(self, first, kind):
         for seed in range(20):
-            again = self.next_plan(feedback(1, first, 5, text), seed=seed)
+            again = self.next_plan(feedback(1, first, 5, kind), seed=seed)
             assert again[:4] == first[:4]
             failed = first[5]
             new = placed(again)[failed.objects[0]]

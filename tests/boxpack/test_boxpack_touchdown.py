@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from llm3.types import Contact, FailureKind
+from llm3_boxpack.env import CLEARANCE
 from llm3_bullet.scene import Scene
 from llm3_bullet.touchdown import Touchdown, TouchdownPlanner, TouchdownSettings
 
@@ -43,7 +44,8 @@ FREE = View(True, ())
 def touchdown(x: float, y: float = 0.0, opening: float = 0.08) -> Touchdown:
     tool = np.diag([1.0, -1.0, -1.0, 1.0])
     tool[:3, 3] = x, y, 0.05
-    return Touchdown(tool, Scene((), None, opening), Scene((), None, opening), (), ())
+    scene = Scene((), None, opening)
+    return Touchdown(tool, scene, scene, scene, (), ())
 
 
 @pytest.fixture
@@ -51,7 +53,7 @@ def goals(workcell):
     def ask(*options: Touchdown, views: dict[float, View] | None = None, enough: int = 3):
         checker = Checker(views or {0.08: FREE})
         planner = TouchdownPlanner(workcell.kinematics, workcell.inverse, checker, TouchdownSettings(enough=enough))
-        return planner.goals(options, np.array(workcell.model.home), np.random.default_rng(0))
+        return planner.goals(options, np.array(workcell.model.home), CLEARANCE, np.random.default_rng(0))
 
     return ask
 

@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -29,6 +30,18 @@ def plugins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder.mkdir()
     install_corridor(folder)
     monkeypatch.syspath_prepend(folder)
+    everything = metadata.entry_points
+
+    def of_these_tests(**wanted: str) -> list[metadata.EntryPoint]:
+        """What ships with llm3 and what a test installed, without what else is in the environment."""
+        return [
+            entry_point
+            for entry_point in everything(**wanted)
+            if entry_point.dist
+            and (entry_point.dist.name == "llm3" or Path(str(entry_point.dist.locate_file(""))) == folder)
+        ]
+
+    monkeypatch.setattr(metadata, "entry_points", of_these_tests)
     return folder
 
 

@@ -100,6 +100,11 @@ def llm3_domains():
     for line in ("--domain wordless --strategy sample-params", "prompt --domain wordless --strategy sample-params"):
         ended = command(line)
         assert (ended.code, ended.out, ended.err) == (2, "", sentence.format("strategy 'sample-params'"))
-    for line in ("--domain wordless", "--domain wordless --llm random"):
-        ended = command(line)
-        assert (ended.code, ended.out, ended.err) == (2, "", sentence.format("the backend 'random'"))
+    ended = command("--domain wordless --llm random")
+    assert (ended.code, ended.out, ended.err) == (2, "", sentence.format("the backend 'random'"))
+    ended = command("--domain wordless")
+    assert (ended.code, ended.out) == (2, "")
+    assert ended.err == (
+        "llm3: error: domain 'wordless' has no rule-based stand-in and no skeleton to draw parameters for: "
+        "give --model NAME or --llm scripted:FILE.\n"
+    )

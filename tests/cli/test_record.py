@@ -78,8 +78,8 @@ def test_an_empty_folder_needs_no_force(corridor, cwd):
 def test_a_file_in_the_way_is_named(corridor, cwd):
     (cwd / "here").write_text("mine")
     ended = corridor("--out here")
-    assert (ended.code, ended.out) == (3, "")
-    assert ended.err == "llm3: error: the output folder 'here' cannot be written: File exists.\n"
+    assert (ended.code, ended.out) == (2, "")
+    assert ended.err == "llm3: error: 'here' is a file, not a folder: choose another.\n"
     assert (cwd / "here").read_text() == "mine"
 
 
@@ -87,13 +87,13 @@ def test_a_file_in_the_way_is_named(corridor, cwd):
     ("llm", "code", "last", "status", "error"),
     [
         (
-            "buggy", 3, "llm3: error: internal error: ZeroDivisionError: once more (--debug shows the traceback)",
-            "error", "ZeroDivisionError: once\nmore",
+            "buggy", 3, "llm3: error: Crashing.complete raised ZeroDivisionError: once more (llm3_crashing.py:12).",
+            "error", "Crashing.complete raised ZeroDivisionError: once more (llm3_crashing.py:12).",
         ),
         (
             "piping", 3,
-            "llm3: error: internal error: BrokenPipeError: a pipe of the backend's own (--debug shows the traceback)",
-            "error", "BrokenPipeError: a pipe of the backend's own",
+            "llm3: error: Crashing.complete raised BrokenPipeError: a pipe of the backend's own (llm3_crashing.py:12).",
+            "error", "Crashing.complete raised BrokenPipeError: a pipe of the backend's own (llm3_crashing.py:12).",
         ),
         ("stopped", 130, "llm3: interrupted.", "interrupted", ""),
         ("scripted:replies.json", 3, "llm3: error: the script has run out after 1 reply.", "error",

@@ -6,7 +6,8 @@ import pytest
 
 RUN_FLAGS = (
     "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, --model, "
-    "--out, --planner, --quiet, --seed, --setting, --strategy, --temperature, --trace-size, --version, -D, -h"
+    "--out, --planner, --planner-iterations, --planner-seconds, --quiet, "
+    "--seed, --setting, --strategy, --temperature, --trace-size, --version, -D, -h"
 )
 SENTENCES = {
     "": "no domain: give --domain NAME. Known: boxpack, corridor.",
@@ -39,8 +40,15 @@ SENTENCES = {
     ),
     "--domain corridor --max-llm-calls 0": "the number of model calls must be at least 1, not 0.",
     "--domain corridor --trace-size -1": "the trace size must be 0 or more, not -1.",
+    "--domain corridor --planner-iterations -1": "the planner's iterations must be 0 or more, not -1.",
+    "--domain corridor --temperature nan": "the temperature must be 0 or more, not nan.",
+    "--domain corridor -D a=1 -D a=2": "-D a is given twice: a=1 and a=2.",
+    "--domain corridor --llm offline:x": "the backend 'offline' takes no argument, so leave out ':x'.",
+    "--domain corridor --planner-seconds nan": "the planner's seconds must be more than 0, not nan.",
     "--domain corridor --temperature hot": ("argument --temperature: invalid float value: 'hot'. See 'llm3 --help'."),
-    "--domain corridor --llm offline --model gpt": "--model goes with the backend 'http', not with 'offline'.",
+    "--domain corridor --llm offline --model gpt": (
+        "the backend 'offline' uses no language model: leave out --model gpt, or --llm."
+    ),
     "--domain corridor --gui": "domain 'corridor' has no window, which --gui needs.",
     "--domain corridor --llm scripted": (
         "the backend 'scripted' needs a JSON file with a list of replies: --llm scripted:replies.json."

@@ -33,10 +33,12 @@ def test_the_defaults_are_the_papers_and_need_no_network():
         seed=0,
         strategy="backtrack",
         feedback="categorized",
-        llm="offline",
+        llm=None,
         model=None,
         temperature=None,
         planner="birrt",
+        planner_iterations=2000,
+        planner_seconds=30.0,
         max_llm_calls=20,
         trace_size=5,
         options={},
@@ -44,8 +46,10 @@ def test_the_defaults_are_the_papers_and_need_no_network():
 
 
 def test_a_model_implies_http():
-    assert config(model="gpt-4o").llm == "http"
-    assert config(model="gpt-4o", llm="http").llm == "http"
+    assert config().backend == "offline"
+    assert config(model="gpt-4o").backend == "http"
+    assert config(model="gpt-4o", llm="mine:x").backend == "mine:x"
+    assert replace(config(), model="gpt-4o").backend == "http"
 
 
 @pytest.mark.parametrize(
@@ -53,8 +57,8 @@ def test_a_model_implies_http():
     [
         ({"max_llm_calls": 0}, "the number of model calls must be at least 1, not 0."),
         ({"trace_size": -2}, "the trace size must be 0 or more, not -2."),
-        ({"model": "gpt-4o", "llm": "random"}, "--model goes with the backend 'http', not with 'random'."),
-        ({"model": "gpt-4o", "llm": "offline"}, "--model goes with the backend 'http', not with 'offline'."),
+        ({"planner_iterations": -1}, "the planner's iterations must be 0 or more, not -1."),
+        ({"planner_seconds": 0.0}, "the planner's seconds must be more than 0, not 0."),
     ],
 )
 def test_what_cannot_be_asked_for(changes, sentence):
@@ -133,7 +137,7 @@ def test_a_window_needs_a_domain_that_has_one():
 
 def test_a_run_is_assembled_and_solved():
     with assemble(line_registry(), config()) as run:
-        assert run.config == config(setting="far")
+        assert run.config == config(setting="far", llm="offline")
         assert run.problem.instance == LineInstance(0.0)
         assert run.skeleton == ()
         result = run.solve()

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from line_world import LineInstance
 
 from llm3.errors import InputError
 from llm3.jsonio import dumps, loads, pretty, read_file, to_builtins
@@ -204,3 +205,17 @@ def test_a_file_is_named_in_every_complaint(tmp_path):
     with pytest.raises(InputError) as folder:
         read_file(tmp_path, Table)
     assert str(folder.value) == f"{tmp_path}: Is a directory"
+
+
+def test_a_field_that_stands_there_twice_is_refused(tmp_path):
+    path = tmp_path / "twice.json"
+    path.write_text('{"start": 1.0, "start": 2.0}', encoding="utf-8")
+    with pytest.raises(InputError) as caught:
+        read_file(path, LineInstance)
+    assert str(caught.value) == f"{path}: the field `start` stands there twice"
+
+
+def test_a_byte_order_mark_does_no_harm(tmp_path):
+    path = tmp_path / "mark.json"
+    path.write_bytes(b"\xef\xbb\xbf" + b'{"start": 1.0}')
+    assert read_file(path, LineInstance) == LineInstance(1.0)

@@ -114,9 +114,10 @@ def test_what_physics_did_against_the_plan_is_noted_and_is_where_the_next_action
 def test_everything_is_told_as_it_happens():
     seen = []
     env = Line({2: GOAL})
-    observe = lambda index, outcome: seen.append((index, outcome, len(env.asked)))  # noqa: E731  # reads as a value
+    observe = lambda *told: seen.append((*told, len(env.asked)))  # noqa: E731  # reads as a value
     rolled = roller(env).rollout(env.reset(), [go(1), go(2), go(3)], observe)
-    assert seen == [(0, rolled.outcomes[0], 1), (1, rolled.outcomes[1], 2)]
+    (step,) = rolled.plan
+    assert seen == [(0, env.reset(), rolled.outcomes[0], step, 1), (1, step.state, rolled.outcomes[1], None, 2)]
 
 
 # ---- what is remembered --------------------------------------------------------------------------------------------

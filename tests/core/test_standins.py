@@ -119,9 +119,26 @@ def test_without_rules_offline_draws_at_random_and_says_so():
 
 
 def test_without_rules_and_without_a_skeleton_there_is_nothing_to_draw():
-    with pytest.raises(MissingCapability) as caught:
+    with pytest.raises(UsageError) as caught:
         backend("offline", BackendSettings(domain="corridor"))
-    assert str(caught.value) == "domain 'corridor' has no skeleton, which the backend 'random' needs."
+    assert str(caught.value) == (
+        "domain 'corridor' has no rule-based stand-in and no skeleton to draw parameters for: "
+        "give --model NAME or --llm scripted:FILE."
+    )
+
+
+@pytest.mark.parametrize("name", ["offline", "random", "scripted"])
+def test_a_stand_in_takes_no_model(name):
+    with pytest.raises(UsageError) as caught:
+        backend(name, BackendSettings(model="gpt", skeleton=(Sketch("go"),)))
+    assert str(caught.value) == (f"the backend {name!r} uses no language model: leave out --model gpt, or --llm.")
+
+
+@pytest.mark.parametrize("name", ["offline", "random"])
+def test_only_scripted_takes_an_argument(name):
+    with pytest.raises(UsageError) as caught:
+        backend(name, BackendSettings(argument="x", skeleton=(Sketch("go"),)))
+    assert str(caught.value) == f"the backend {name!r} takes no argument, so leave out ':x'."
 
 
 # ---- scripted ------------------------------------------------------------------------------------------------------

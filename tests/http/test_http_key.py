@@ -103,3 +103,10 @@ def test_a_redacted_text_without_the_key_is_the_text(key, text):
 @pytest.mark.parametrize("placeholder", ["", "EMPTY", "ollama", "x"])
 def test_a_placeholder_is_not_hunted_in_texts(complete, placeholder):
     assert complete(answer(completion("EMPTY x ollama")), key=placeholder).text == "EMPTY x ollama"
+
+
+@given(st.data())
+def test_a_key_is_hidden_also_where_some_of_its_characters_are_escaped(data):
+    escapes = (lambda c: c, lambda c: f"\\u{ord(c):04x}", lambda c: f"\\u{ord(c):04X}", lambda c: f"\\x{ord(c):02x}")
+    spelt = "".join(data.draw(st.sampled_from(escapes))(c) for c in CANARY)
+    assert Secret(CANARY).redact(f"before {spelt} after") == "before *** after"

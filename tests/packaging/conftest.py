@@ -13,7 +13,7 @@ from project import ROOT
 
 @dataclass(frozen=True)
 class Scratch:
-    """A virtual environment that sees the packages of this one, but for what is installed into it anew."""
+    """A virtual environment that sees the packages of the running one, but for llm3."""
 
     folder: Path
 
@@ -37,8 +37,14 @@ class Scratch:
 def scratch(tmp_path: Path) -> Scratch:
     made = Scratch(tmp_path / "venv")
     venv.create(made.folder, symlinks=True)
-    # A line in a .pth file comes after the environment's own packages, and no .pth file behind it is read.
-    (made.packages / "running.pth").write_text(f"{sysconfig.get_path('purelib')}\n{sysconfig.get_path('platlib')}\n")
+    others = tmp_path / "others"
+    others.mkdir()
+    for place in {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}:
+        for path in Path(place).iterdir():
+            if "llm3" not in path.name:
+                (others / path.name).symlink_to(path)
+    # By its name it is read before the line of an editable installation, which imports a package from there.
+    (made.packages / "00-others.pth").write_text(f"{others}\n")
     return made
 
 

@@ -1,7 +1,7 @@
 """The ways to write one action."""
 
 import json
-import math
+import sys
 
 import pytest
 from hypothesis import given
@@ -16,7 +16,7 @@ PICK, PLACE, STACK, WAIT = PLAN
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 actions = st.builds(
     Action,
-    st.text(min_size=1),
+    st.sampled_from(["pick", "place_on", "été", "_", "A1"]),
     st.lists(st.text(), max_size=3).map(tuple),
     st.dictionaries(st.text(), numbers, max_size=3),
 )
@@ -27,7 +27,7 @@ def test_an_action_is_read_as_it_prints_itself(action):
     schema = ActionSchema(
         action.name,
         ("thing",) * len(action.objects),
-        tuple(Parameter(name, -math.inf, math.inf) for name in action.params),
+        tuple(Parameter(name, -sys.float_info.max, sys.float_info.max) for name in action.params),
     )
     text = json.dumps({"Full Plan": [str(action)]})
     (item,) = parse_reply(text, (schema,), action.objects).actions

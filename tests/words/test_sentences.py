@@ -77,7 +77,7 @@ def test_every_kind_has_a_sentence_of_its_own(kind: FailureKind) -> None:
         ),
         (
             Failure(FailureKind.UNREACHABLE, "The pose is 0.9 m from the base", ("red_box",)),
-            "The goal configuration has no inverse kinematics solution: it is out of the robot's reach. "
+            "The goal configuration has no inverse kinematics solution for the whole motion. "
             "Involved: red_box. The pose is 0.9 m from the base.",
         ),
         (
@@ -134,3 +134,11 @@ def test_lists_read_as_prose(items: list[str], text: str) -> None:
 @pytest.mark.parametrize(("text", "whole"), [("it slid ", "it slid."), ("it slid.", "it slid."), ("why?", "why?")])
 def test_sentences_are_closed(text: str, whole: str) -> None:
     assert closed(text) == whole
+
+
+def test_what_can_be_reached_but_not_moved_through_is_not_called_out_of_reach() -> None:
+    failure = Failure(FailureKind.UNREACHABLE, "The arm cannot come straight down on it.")
+    assert sentence_of(failure) == (
+        "The goal configuration has no inverse kinematics solution for the whole motion. "
+        "The arm cannot come straight down on it."
+    )

@@ -50,6 +50,7 @@ def test_categorized_tells_why() -> None:
                 "place(['red_box'], {'x': 0.5, 'y': 0.0})",
                 "failed",
                 "The goal configuration is in collision with tan_box (touched by the gripper). Try elsewhere.",
+                FailureKind.GOAL_IN_COLLISION,
             ),
             Remark("pick(['blue_box'], {})", "not tried"),
         ),
@@ -83,7 +84,7 @@ def test_what_the_model_wrote_wrongly_is_told(level: FeedbackSynthesizer) -> Non
     feedback = level.synthesize(attempt(Outcome(rejected, rejected.failure), planned=(rejected, PICK)))
     assert feedback is not None
     assert feedback.remarks == (
-        Remark("place(red)", "failed", "place needs x: it is missing."),
+        Remark("place(red)", "failed", "place needs x: it is missing.", FailureKind.INVALID_ACTION),
         Remark("pick(['red_box'], {})", "not tried"),
     )
 
@@ -93,7 +94,7 @@ def test_a_precondition_is_told(level: FeedbackSynthesizer) -> None:
     failure = Failure(FailureKind.PRECONDITION, "red_box is not held.")
     feedback = level.synthesize(attempt(Outcome(PLACE, failure), planned=(PLACE,)))
     assert feedback is not None
-    assert feedback.remarks == (Remark(str(PLACE), "failed", "red_box is not held."),)
+    assert feedback.remarks == (Remark(str(PLACE), "failed", "red_box is not held.", FailureKind.PRECONDITION),)
 
 
 UNREADABLE = Attempt(1, UNMET, unreadable=Failure(FailureKind.UNREADABLE_REPLY, "The reply holds no JSON."))

@@ -1,4 +1,4 @@
-"""The one retry layer."""
+"""The one retry layer: how long to wait. What may pass by itself is in `statuses`, the figures are in `settings`."""
 
 from __future__ import annotations
 

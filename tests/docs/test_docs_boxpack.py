@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from docs_pages import blocks, page, table, tables
+from docs_pages import ROOT, blocks, names, page, table, tables
 from scipy.spatial.transform import Rotation
 
 from llm3.jsonio import loads
@@ -15,7 +15,7 @@ from llm3_boxpack.instance import BasketSpec, BoxpackInstance, BoxSpec
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.robot import ParallelGripper
 from llm3_bullet.settle import SettlerSettings
-from llm3_bullet.touchdown import TouchdownSettings
+from llm3_bullet.touchdown import CUT_SHORT, TouchdownSettings
 from llm3_words.sentences import FEASIBLE, sentence_of
 
 PAGE = page("boxpack")
@@ -122,11 +122,19 @@ def test_the_page_has_the_figures_of_the_code(text):
 
 
 def test_the_figures_of_a_grasp():
-    shown = dict(table(PAGE, "Grasps").rows)
+    shown = {figure: value for figure, value, _ in table(PAGE, "Grasps").rows}
     assert shown["it opens wider than the box by"] == f"{grasps.OPENING_MARGIN * 1000:g} mm"
     assert shown["palm above a tall box at least"] == f"{grasps.PALM_GAP * 1000:g} mm"
     assert shown["largest opening of the gripper"] == f"{GRIPPER.max_opening * 1000:g} mm"
     assert shown["a finger reaches out beyond the face that it grips"] == f"{GRIPPER.finger_reach * 1000:g} mm"
+
+
+def test_the_figures_of_a_grasp_stand_where_the_page_says():
+    for _, _, (name,) in (map(names, row) for row in table(PAGE, "Grasps").rows):
+        assert hasattr(grasps if name.isupper() else GRIPPER, name), name
+    for file in ("plugins/llm3_bullet/robots/panda.py", "domains/llm3_boxpack/grasps.py"):
+        assert f"`{file}`" in PAGE
+        assert (ROOT / file).is_file()
 
 
 @pytest.mark.pybullet
@@ -152,7 +160,9 @@ def test_every_failure_of_a_motion_reads_as_documented():
     shown = {kind.strip("`"): sentence.strip("`") for kind, sentence in table(PAGE, "Failures").rows}
     kinds = [kind for kind in FailureKind if kind.is_motion]
     assert shown == {kind.value: sentence_of(Failure(kind, contacts=contacts.get(kind, ()))) for kind in kinds}
-    assert f"`{FEASIBLE}`" in PAGE.replace("\n", " ")
+    cut_short = sentence_of(Failure(FailureKind.UNREACHABLE, CUT_SHORT))
+    for sentence in (FEASIBLE, cut_short):
+        assert f"`{sentence}`" in PAGE.replace("\n", " ")
 
 
 def test_every_precondition_reads_as_documented():

@@ -11,7 +11,7 @@ from docs_pages import DOCS
 
 pytestmark = pytest.mark.slow
 
-PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.testing")
+PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.records", "llm3.testing")
 
 
 @pytest.fixture(scope="module")

@@ -34,6 +34,14 @@ def test_the_exit_codes_are_those_of_the_program():
     assert codes == {"0", "1", str(UsageError.exit_code), str(LLM3Error.exit_code), "130"}
 
 
+@pytest.mark.parametrize("backend", ["offline", "random", "scripted"])
+def test_what_is_no_language_model_refuses_a_model_as_the_page_says(corridor, capsys, backend):
+    assert main(["--domain", "corridor", "--llm", backend, "--model", "gpt"]) == 2
+    said = f"the backend '{backend}' uses no language model: leave out --model gpt, or --llm."
+    assert said in capsys.readouterr().err
+    assert said.replace(backend, "offline") in page("command-line").replace("\n", " ")
+
+
 def test_the_json_object_has_the_documented_fields(corridor, capsys):
     assert main(["--domain", "corridor", "--json", "--quiet"]) == 0
     assert set(json.loads(capsys.readouterr().out)) == set(table(page("command-line"), "Streams").names)

@@ -3,14 +3,17 @@ from __future__ import annotations
 import dataclasses
 import importlib
 import inspect
+import pkgutil
+import re
 import typing
 
 import pytest
-from docs_pages import page, table, tables
+from docs_pages import ROOT, names, page, table, tables
 
+import llm3
 from llm3.registry import HOOKS
 
-PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.testing")
+PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.records", "llm3.testing")
 
 
 def has_docstring(thing: object) -> bool:
@@ -52,6 +55,23 @@ def test_the_reference_names_what_llm3_offers_from_elsewhere():
     module = importlib.import_module("llm3")
     for name in module.__all__:
         assert name in page("api"), name
+
+
+def test_everybody_names_the_same_public_modules():
+    public = {line.removeprefix("## ") for line in page("api").splitlines() if line.startswith("## ")}
+    promised = page("hooks").partition("These modules are public")[2].partition("Domains on PyBullet")[0]
+    assert set(names(promised)) - {"api"} == public
+    contributing = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    asked = contributing.partition("import the public\nnames only: ")[2].partition("import-linter")[0]
+    assert set(names(asked)) == public
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    commented = project.partition("# Public: ")[2].partition(".\ntype")[0]
+    assert set(re.split(r"[,\s#]+", commented)) == public
+    contract = project.partition("protected_modules = [")[2].partition("]")[0]
+    protected = set(re.findall(r'"([^"]+)"', contract))
+    own = {f"llm3.{module.name}" for module in pkgutil.iter_modules(llm3.__path__)} - {"llm3.__main__"}
+    assert {name for name in protected if not name.endswith(".*")} == own - public
+    assert {name.removesuffix(".*") for name in protected if name.endswith(".*")} <= public
 
 
 def test_the_front_page_and_the_command_line_name_what_ships():

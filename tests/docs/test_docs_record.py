@@ -64,6 +64,16 @@ def test_a_run_writes_the_documented_files_and_events(corridor, capsys):
     assert written == {row[0].strip("`"): set(names(row[1])) for row in table(page("record"), EVENTS).rows}
 
 
+def test_the_line_of_a_reused_action_leaves_out_what_stands_where_it_was_tried_first(corridor, capsys):
+    go = "go([], {'x': 0.5, 'y': 0.5})"
+    (corridor / "replies.json").write_text(json.dumps([json.dumps({"Full Plan": [go]})] * 2))
+    assert main(["--domain", "corridor", "--llm", "scripted:replies.json", "--max-llm-calls", "2", "--out", "o"]) == 1
+    lines = map(json.loads, (corridor / "o" / "events.jsonl").read_text().splitlines())
+    first, second = (line for line in lines if line.get("event") == "ActionTried")
+    assert set(first) - set(second) == {"before", "step"}
+    assert "The line of a reused action has neither" in page("record")
+
+
 def test_the_formats_are_named():
     from llm3.records import plan, recorder
 

@@ -41,6 +41,7 @@ SENTENCES = {
     "--domain corridor --max-llm-calls 0": "the number of model calls must be at least 1, not 0.",
     "--domain corridor --trace-size -1": "the trace size must be 0 or more, not -1.",
     "--domain corridor --planner-iterations -1": "the planner's iterations must be 0 or more, not -1.",
+    "--domain corridor --out=": "argument --out: expected a path, not an empty text. See 'llm3 --help'.",
     "--domain corridor --temperature nan": "the temperature must be 0 or more, not nan.",
     "--domain corridor -D a=1 -D a=2": "-D a is given twice: a=1 and a=2.",
     "--domain corridor --llm offline:x": "the backend 'offline' takes no argument, so leave out ':x'.",

@@ -57,6 +57,8 @@ def test_a_model_implies_http():
     [
         ({"max_llm_calls": 0}, "the number of model calls must be at least 1, not 0."),
         ({"trace_size": -2}, "the trace size must be 0 or more, not -2."),
+        ({"model": " "}, "the model's name is empty: name one, or leave out --model."),
+        ({"temperature": -1.0}, "the temperature must be 0 or more, not -1."),
         ({"planner_iterations": -1}, "the planner's iterations must be 0 or more, not -1."),
         ({"planner_seconds": 0.0}, "the planner's seconds must be more than 0, not 0."),
     ],

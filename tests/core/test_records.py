@@ -380,3 +380,21 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     with pytest.raises(LLM3Error) as caught:
         create_folder(blocked / "below")
     assert str(caught.value) == f"the output folder '{blocked / 'below'}' cannot be written: Not a directory."
+
+
+def test_a_folder_in_the_place_of_a_record_is_named_before_anything_is_taken_away(tmp_path):
+    (tmp_path / "run.json").write_text("{}", encoding="utf-8")
+    (tmp_path / "plan.json").mkdir()
+    with pytest.raises(LLM3Error) as caught:
+        create_folder(tmp_path, force=True)
+    assert str(caught.value) == f"'{tmp_path / 'plan.json'}' is a folder, so no record can be written there."
+    assert (tmp_path / "run.json").exists()
+
+
+def test_a_default_folder_that_cannot_be_made_is_named(tmp_path):
+    blocked = tmp_path / "runs"
+    blocked.write_text("", encoding="utf-8")
+    with pytest.raises(LLM3Error) as caught:
+        create_default_folder("x", datetime(2026, 3, 4, 15, 6, 7), blocked)
+    folder = blocked / "20260304-150607-x"
+    assert str(caught.value) == f"the output folder '{folder}' cannot be written: Not a directory."

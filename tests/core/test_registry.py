@@ -369,3 +369,27 @@ def test_a_domain_goes_by_its_own_name():
     assert complaint(registry.domain, "road") == (
         "domain 'road' is registered under another name than its own, 'line'."
     )
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"instance_type": None}, "odd: domain 'line' has no attribute 'instance_type'."),
+        (
+            {"default_setting": "nowhere"},
+            "odd: the default setting 'nowhere' of domain 'line' is none of its settings: far, near.",
+        ),
+    ],
+)
+def test_a_domain_declares_what_it_must(changes, sentence):
+    declared = {k: v for k, v in vars(LineDomain).items() if k not in changes}
+    Odd = type("Odd", (Domain,), {**declared, **{k: v for k, v in changes.items() if v is not None}})
+
+    class Plugin:
+        @hookimpl
+        def llm3_domains(self):
+            return {"line": Odd}
+
+    registry = Registry()
+    registry.register(Plugin(), "odd")
+    assert complaint(registry.domain, "line") == sentence

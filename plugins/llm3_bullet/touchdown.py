@@ -132,9 +132,7 @@ class TouchdownPlanner:
                 break
         if goals:
             return tuple(goals), None, stats
-        if not blocked and cut_short:
-            return (), Failure(FailureKind.UNREACHABLE, CUT_SHORT, stats=stats), stats
-        return (), _failure(blocked, shortfalls, stats), stats
+        return (), _failure(blocked, cut_short, shortfalls, stats), stats
 
     def _follow(self, option: Touchdown, views: _Views, bottoms: Array, clearance: float) -> Iterator[Goal | _Blocked]:
         """For each configuration at the bottom: a goal, or where it is blocked, without contacts if the line ends."""
@@ -182,14 +180,14 @@ class TouchdownPlanner:
         )
 
 
-def _failure(blocked: list[_Blocked], shortfalls: list[tuple[float, float]], stats: Stats) -> Failure:
+def _failure(blocked: list[_Blocked], cut_short: bool, shortfalls: list[tuple[float, float]], stats: Stats) -> Failure:
+    """What is told of options that all fail: the nearest to a success counts."""
+    if not blocked and cut_short:
+        return Failure(FailureKind.UNREACHABLE, CUT_SHORT, stats=stats)
     if not blocked:
         position, rotation = min(shortfalls)
-        return Failure(
-            FailureKind.UNREACHABLE,
-            measures={"position_error": position, "rotation_error": rotation},
-            stats=stats,
-        )
+        measures = {"position_error": position, "rotation_error": rotation}
+        return Failure(FailureKind.UNREACHABLE, measures=measures, stats=stats)
     least = min(blocked, key=lambda b: (len({c.object for c in b.contacts}), max(c.depth for c in b.contacts)))
     return Failure(
         FailureKind.GOAL_IN_COLLISION,

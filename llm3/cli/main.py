@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import importlib
+import signal
 import sys
+import threading
 import traceback
 from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
-from collections.abc import Sequence
-from contextlib import redirect_stdout
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
 from typing import TYPE_CHECKING, NoReturn
 
 from llm3.cli.text import emit, open_streams, printable
@@ -22,7 +24,11 @@ COMMANDS = {
     "instance": "write a problem to a file, for --instance",
     "list": "show every plugin, where it comes from, and what failed to load",
 }
-INTERRUPTED = 130
+INTERRUPTED, TERMINATED = 130, 143
+
+
+class _Terminated(KeyboardInterrupt):
+    """Somebody asked the process to end, as a batch system does: as clean an ending as Ctrl-C."""
 
 
 class CommandParser(ArgumentParser):
@@ -76,13 +82,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command.
 
     Returns:
-        0 solved or done, 1 not solved, 2 a usage error, 3 any other error, 130 after Ctrl-C.
+        0 solved or done, 1 not solved, 2 a usage error, 3 any other error, 130 after Ctrl-C, 143 after SIGTERM.
     """
     open_streams()
     arguments = list(sys.argv[1:] if argv is None else argv)
     debug = "--debug" in arguments  # an argument that cannot be parsed may be what is wrong
     try:
-        return _run(arguments)
+        with _ended_by_sigterm():
+            return _run(arguments)
+    except _Terminated:
+        sys.stderr.write("llm3: terminated.\n")
+        return TERMINATED
     except KeyboardInterrupt:
         sys.stderr.write("llm3: interrupted.\n")
         return INTERRUPTED
@@ -91,6 +101,23 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BaseException as error:  # the last line of defence, also against a plugin that calls sys.exit
         text = f"internal error: {type(error).__name__}: {error} (--debug shows the traceback)"
         return _report(text, LLM3Error.exit_code, debug)
+
+
+@contextmanager
+def _ended_by_sigterm() -> Iterator[None]:
+    """Make SIGTERM end the block as Ctrl-C does; in any but the main thread, which alone gets signals, do nothing."""
+
+    def end(_signal: int, _frame: object) -> NoReturn:
+        raise _Terminated
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _run(arguments: list[str]) -> int:

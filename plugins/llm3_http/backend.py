@@ -47,7 +47,14 @@ class HttpBackend(LLMBackend):
             sleep: Waits for a number of seconds.
             clock: Monotonic seconds, for deadlines.
             wall_clock: Seconds since the epoch, for a Retry-After that is a date.
+
+        Raises:
+            BackendError: OpenAI is to be asked, and there is no key: better said before a run begins.
         """
+        if is_openai(settings.base_url) and not settings.key:
+            raise BackendError(
+                f"{settings.base_url} needs a key: set {settings.key_variables}, or LLM3_BASE_URL for another server"
+            )
         self._settings, self._rng = settings, rng
         self._session = session_factory()
         self._sleep, self._clock, self._wall_clock = sleep, clock, wall_clock
@@ -55,10 +62,6 @@ class HttpBackend(LLMBackend):
     def complete(self, request: Request) -> Completion:
         """Send the messages and read the model's answer, again where the failure may pass."""
         settings = self._settings
-        if is_openai(settings.base_url) and not settings.key:
-            raise BackendError(
-                f"{settings.base_url} needs a key: set {settings.key_variables}, or LLM3_BASE_URL for another server"
-            )
         payload = chat_payload(settings, request.messages)
         until = self._clock() + settings.deadline
 

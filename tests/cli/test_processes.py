@@ -27,7 +27,11 @@ def llm3_backends():
 """
 
 
-def test_ctrl_c_ends_a_run_cleanly(cwd, install, surroundings):
+@pytest.mark.parametrize(
+    ("sent", "code", "said"),
+    [(signal.SIGINT, 130, "llm3: interrupted.\n"), (signal.SIGTERM, 143, "llm3: terminated.\n")],
+)
+def test_ctrl_c_and_sigterm_end_a_run_cleanly(cwd, install, surroundings, sent, code, said):
     install("llm3_hanging", HANGING)
     ignored = signal.signal(signal.SIGINT, signal.default_int_handler)  # a child inherits what is ignored
     try:
@@ -42,11 +46,11 @@ def test_ctrl_c_ends_a_run_cleanly(cwd, install, surroundings):
         while not (events.exists() and "PromptSent" in events.read_text(encoding="utf-8")):
             assert process.poll() is None
             time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
+        process.send_signal(sent)
         out, err = process.communicate(timeout=60)
     finally:
         process.kill()
-    assert (process.returncode, out, err) == (130, "", "llm3: interrupted.\n")
+    assert (process.returncode, out, err) == (code, "", said)
     told = json.loads((cwd / "here/run.json").read_text(encoding="utf-8"))
     assert (told["status"], told["error"]) == ("interrupted", "")
     for line in events.read_text(encoding="utf-8").splitlines():

@@ -113,6 +113,21 @@ def test_a_model_implies_the_http_backend(corridor, cwd):
         "llm3: error: https://api.openai.com/v1 needs a key: "
         "set LLM3_API_KEY or OPENAI_API_KEY, or LLM3_BASE_URL for another server\n"
     )
+    assert not (cwd / "here").exists()
+
+
+def test_a_run_that_cannot_begin_costs_no_earlier_record(corridor, cwd):
+    corridor("--llm random --out here")
+    before = (cwd / "here/run.json").read_bytes()
+    assert corridor("--model some-model --out here --force").code == 3
+    assert (cwd / "here/run.json").read_bytes() == before
+    assert (cwd / "here/plan.json").exists()
+
+
+def test_the_record_names_the_model_and_its_backend(corridor, cwd, monkeypatch):
+    monkeypatch.setenv("LLM3_BASE_URL", "http://127.0.0.1:9/v1")
+    monkeypatch.setattr("time.sleep", lambda seconds: None)
+    assert corridor("--model some-model --temperature 0.5 --out here").code == 3
     told = json.loads((cwd / "here/run.json").read_text(encoding="utf-8"))
     assert told["status"] == "error"
     assert (told["config"]["llm"], told["config"]["model"], told["config"]["temperature"]) == (

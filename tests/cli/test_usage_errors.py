@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import signal
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 
 RUN_FLAGS = (
@@ -90,3 +94,14 @@ def test_debug_is_heard_when_the_arguments_cannot_be_read(command):
 def test_control_characters_of_the_user_do_not_reach_the_terminal(command):
     ended = command("--domain", "\x1b[2J\x07")
     assert (ended.code, ended.err) == (2, r"llm3: error: unknown domain '\x1b[2J\x07'. Known: boxpack, corridor." "\n")
+
+
+def test_a_command_leaves_signals_and_streams_as_they_were(command):
+    before = signal.getsignal(signal.SIGTERM), sys.stdout
+    command("list")
+    assert (signal.getsignal(signal.SIGTERM), sys.stdout) == before
+
+
+def test_a_command_runs_in_any_thread(command):
+    with ThreadPoolExecutor() as threads:
+        assert threads.submit(command, "list").result().code == 0

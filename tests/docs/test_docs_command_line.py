@@ -7,7 +7,7 @@ import json
 import pytest
 from docs_pages import DOCS, page, table
 
-from llm3.cli.main import COMMANDS, build_parser, main
+from llm3.cli.main import COMMANDS, INTERRUPTED, TERMINATED, build_parser, main
 from llm3.errors import LLM3Error, UsageError
 from llm3_http.address import OPENAI
 from llm3_http.settings import HttpSettings
@@ -31,7 +31,7 @@ def test_the_page_has_the_live_help_of_every_command():
 
 def test_the_exit_codes_are_those_of_the_program():
     codes = {row[0] for row in table(page("command-line"), "Exit codes").rows}
-    assert codes == {"0", "1", str(UsageError.exit_code), str(LLM3Error.exit_code), "130"}
+    assert codes == {"0", "1", str(UsageError.exit_code), str(LLM3Error.exit_code), str(INTERRUPTED), str(TERMINATED)}
 
 
 @pytest.mark.parametrize("backend", ["offline", "random", "scripted"])

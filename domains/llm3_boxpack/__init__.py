@@ -1,1 +1,1 @@
-"""The paper's task: a Franka Panda packs four boxes into a basket on a table."""
+"""The paper's task: an arm packs four boxes into a basket on a table."""

@@ -18,10 +18,13 @@ class BoxPack(Domain):
     """Pack four boxes into a basket, with the sizes of the paper's settings."""
 
     name = "boxpack"
-    description = "A Franka Panda packs boxes into a basket on a table."
+    description = "An arm packs boxes into a basket on a table."
     settings = SETTINGS
     default_setting = "medium-small"
-    options = (Option("walls", "0", f"height of the basket's walls in metres, 0 to {MAX_WALL_HEIGHT:g}"),)
+    options = (
+        Option("robot", "panda", "panda, iiwa, or a .json file that describes another one"),
+        Option("walls", "0", f"height of the basket's walls in metres, 0 to {MAX_WALL_HEIGHT:g}"),
+    )
     instance_type = BoxpackInstance
 
     def instance(self, setting: str, seed: int) -> BoxpackInstance:
@@ -31,22 +34,22 @@ class BoxPack(Domain):
     def make(self, instance: Any, options: Options) -> Env:
         """A PyBullet world without a window."""
         from llm3_boxpack.env import BoxpackEnv
-        from llm3_bullet.robots.panda import panda
+        from llm3_bullet.robots import find_robot
         from llm3_bullet.workcell import Workcell
 
         wall_height = _wall_height(options["walls"])
-        return BoxpackEnv(instance, Workcell(panda()), wall_height)
+        return BoxpackEnv(instance, Workcell(find_robot(options["robot"])), wall_height)
 
     def make_in_window(self, instance: Any, options: Options) -> Env | None:
         """A PyBullet world, with a second one in a window that plays what happens."""
         from llm3_boxpack.window import WindowEnv
         from llm3_bullet.clients import connect
-        from llm3_bullet.robots.panda import panda
+        from llm3_bullet.robots import find_robot
         from llm3_bullet.workcell import Workcell
 
-        wall_height = _wall_height(options["walls"])
+        wall_height, robot = _wall_height(options["walls"]), find_robot(options["robot"])
         client = connect(gui=True)
-        return WindowEnv(instance, Workcell(panda()), wall_height, client)
+        return WindowEnv(instance, Workcell(robot), wall_height, client)
 
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
         """Pick and place each box in turn."""

@@ -10,7 +10,6 @@ from llm3.types import (
     Action,
     ActionSchema,
     Entity,
-    Event,
     EventKind,
     Failure,
     GoalStatus,
@@ -23,7 +22,6 @@ from llm3.types import (
 )
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.goal import goal_status
-from llm3_boxpack.grasps import OPENING_MARGIN
 from llm3_boxpack.instance import BoxpackInstance
 from llm3_boxpack.layout import furniture, support_height
 from llm3_boxpack.manipulation import Manipulation
@@ -64,7 +62,7 @@ class BoxpackEnv(Env):
     @property
     def task(self) -> str:
         """The task in prose."""
-        return task_text(self._cell.model.description, OPENING_MARGIN, self._wall_height)
+        return task_text(self._cell.gripper, self._wall_height)
 
     @property
     def schemas(self) -> tuple[ActionSchema, ...]:
@@ -79,7 +77,13 @@ class BoxpackEnv(Env):
     @property
     def joints(self) -> tuple[Joint, ...]:
         """The arm's joints."""
-        return tuple(Joint(name) for name in self._cell.model.description.arm_joints)
+        model = self._cell.model
+        return tuple(
+            Joint(name, max_velocity=velocity, max_acceleration=acceleration)
+            for name, velocity, acceleration in zip(
+                model.description.arm_joints, model.max_velocity, model.max_acceleration, strict=True
+            )
+        )
 
     def reset(self) -> State:
         """The boxes at their start, the arm at home."""
@@ -116,7 +120,7 @@ class BoxpackEnv(Env):
             valid=lambda Q: transit.valid(Q, CLEARANCE),
             resolution=transit.resolution(CLEARANCE),
             explain=lambda q: transit.contacts(q, CLEARANCE),
-            before=() if state.held else (Event(EventKind.GRIPPER, opening=scene.opening),),
+            before=() if state.held else self._manipulation.open_to(scene.opening),
             stats=stats,
         )
 

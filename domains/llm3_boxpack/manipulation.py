@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from llm3.types import Event, EventKind, Failure, FailureKind, Held, Pose, State
-from llm3_boxpack.grasps import OPENING_MARGIN, Grasp, held_width, top_grasps
+from llm3_boxpack.grasps import OPENING_MARGIN, Grasp, held_width, narrowest, top_grasps, widest
 from llm3_boxpack.instance import BasketSpec, BoxSpec
 from llm3_boxpack.layout import stance, support_height
 from llm3_bullet.poses import as_matrix, as_pose
-from llm3_bullet.robot import ParallelGripper
+from llm3_bullet.robot import Gripper, SuctionGripper
 from llm3_bullet.scene import Box, HeldBox, Scene
 from llm3_bullet.touchdown import Touchdown
 
@@ -29,7 +29,7 @@ class Manipulation:
         boxes: Mapping[str, BoxSpec],
         furniture: tuple[Box, ...],
         basket: BasketSpec,
-        gripper: ParallelGripper,
+        gripper: Gripper,
     ) -> None:
         """Take what never changes.
 
@@ -51,26 +51,28 @@ class Manipulation:
             return _precondition(f"{name} leans, so it cannot be taken from above.")
         grasps = top_grasps(pose[:3, 3], standing, self._gripper)
         if not grasps:
-            limit = self._gripper.max_opening - OPENING_MARGIN
-            return _precondition(f"{name} is too wide for the gripper, which takes up to {limit:g} m.")
+            return _precondition(self._misfit(name))
         return tuple(self._pick(state.poses, name, pose, grasp) for grasp in grasps)
 
     def _pick(self, poses: Poses, name: str, pose: NDArray[np.float64], grasp: Grasp) -> Touchdown:
         held = Held(name, as_pose(np.linalg.inv(grasp.tool) @ pose))
         others = {other: p for other, p in poses.items() if other != name}
-        opening = round(grasp.width + OPENING_MARGIN, 4)
+        opening = self._opened(grasp.width)
         lifted = self.scene(others, held, grasp.width)
         return Touchdown(
             grasp.tool,
             down=self.scene(poses, None, opening),
             up=lifted,
             after=lifted,
-            before=(Event(EventKind.GRIPPER, opening=opening),),
-            bottom=(
-                Event(EventKind.GRIPPER, opening=grasp.width),
-                Event(EventKind.ATTACH, object=name, grasp=held.grasp),
-            ),
+            before=self.open_to(opening),
+            bottom=(*self.open_to(grasp.width), Event(EventKind.ATTACH, object=name, grasp=held.grasp)),
         )
+
+    def _misfit(self, name: str) -> str:
+        """Why the gripper has no way to take a box."""
+        if isinstance(self._gripper, SuctionGripper):
+            return f"{name} is too narrow for the suction cup, which takes from {narrowest(self._gripper):g} m."
+        return f"{name} is too wide for the gripper, which takes up to {widest(self._gripper):g} m."
 
     def place(self, state: State, name: str, x: float, y: float, theta: float) -> tuple[Touchdown, ...] | Failure:
         """The way to put the held box down, or the precondition that is not met."""
@@ -85,7 +87,7 @@ class Manipulation:
         target = np.eye(4)
         target[:3, :3] = standing.orientation(theta)
         target[:3, 3] = (x, y, below + standing.extent[2] / 2 + DROP)
-        opening = round(held_width(box.size, grasp, self._gripper) + OPENING_MARGIN, 4)
+        opening = self._opened(held_width(box.size, grasp, self._gripper))
         released = {**state.poses, name: as_pose(target)}
         down = Touchdown(
             target @ np.linalg.inv(grasp),
@@ -93,9 +95,17 @@ class Manipulation:
             up=self.scene(released, None, opening),
             after=self.scene(released, None, self._gripper.max_opening),
             before=(),
-            bottom=(Event(EventKind.DETACH, object=name), Event(EventKind.GRIPPER, opening=opening)),
+            bottom=(Event(EventKind.DETACH, object=name), *self.open_to(opening)),
         )
         return (down,)
+
+    def open_to(self, opening: float) -> tuple[Event, ...]:
+        """The event of setting the fingers to an opening in metres; none for a gripper without fingers."""
+        return () if isinstance(self._gripper, SuctionGripper) else (Event(EventKind.GRIPPER, opening=opening),)
+
+    def _opened(self, width: float) -> float:
+        """How far the fingers are open around something of this width, in metres."""
+        return 0.0 if isinstance(self._gripper, SuctionGripper) else round(width + OPENING_MARGIN, 4)
 
     def transit_scene(self, state: State) -> Scene:
         """What surrounds the robot between two touchdowns: the gripper is wide open, or holds a box."""

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from llm3.types import Entity, State
+from llm3_boxpack.grasps import OPENING_MARGIN, narrowest, widest
 from llm3_boxpack.instance import TRAY_THICKNESS, BoxpackInstance
 from llm3_boxpack.layout import stance
 from llm3_bullet.poses import as_matrix
-from llm3_bullet.robot import RobotDescription
+from llm3_bullet.robot import Gripper, ParallelGripper, SuctionGripper
 
 
-def task_text(robot: RobotDescription, opening_margin: float, wall_height: float) -> str:
+def task_text(gripper: Gripper, wall_height: float) -> str:
     """The task in prose; lengths are those of the robot and the options in use."""
-    gripper = robot.gripper
     walls = f" It has walls {wall_height:g} m high." if wall_height else " It has no walls."
-    room = gripper.finger_reach + opening_margin
     return (
         "A robot arm packs boxes into a basket on a table. The arm stands at (0, 0) and faces the positive x axis; "
         "y points to its left and z points up. The table's surface is at z = 0. Lengths are in metres, angles in "
@@ -21,11 +20,26 @@ def task_text(robot: RobotDescription, opening_margin: float, wall_height: float
         f"The basket is a flat tray whose sides are parallel to x and y.{walls}\n"
         "The goal: every box lies in the basket with its whole footprint, and the gripper is empty. Boxes must not "
         "be put on top of one another.\n"
+        f"{_of_suction(gripper) if isinstance(gripper, SuctionGripper) else _of_fingers(gripper)}"
+    )
+
+
+def _of_fingers(gripper: ParallelGripper) -> str:
+    room = gripper.finger_reach + OPENING_MARGIN
+    return (
         "The gripper takes a box from above between two fingers, on two opposite side faces no more than "
-        f"{gripper.max_opening - opening_margin:g} m apart: the closer pair, or for a square box the pair along its "
+        f"{widest(gripper):g} m apart: the closer pair, or for a square box the pair along its "
         "own x direction (that of theta), and the other one only if the first is blocked. The fingers need about "
         f"{room:.3f} m of free space beside these two faces, when they take a box and when they let go of it. Then "
         "the hand moves straight up."
+    )
+
+
+def _of_suction(gripper: SuctionGripper) -> str:
+    return (
+        "The gripper is a suction cup, which takes a box from above by the middle of its upper face; the face must be "
+        f"at least {narrowest(gripper):g} m wide. It needs no free space beside the box. When it has taken a box, or "
+        "let go of it, it moves straight up."
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -27,6 +28,17 @@ class Joint:
 
     name: str
     unit: str = "rad"
+    max_velocity: float | None = None
+    """The fastest that it may move either way, in its unit per second; None if that is not known."""
+    max_acceleration: float | None = None
+    """The hardest that it may accelerate or brake, in its unit per second squared; None if that is not known."""
+
+    def __post_init__(self) -> None:
+        for name in ("max_velocity", "max_acceleration"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < inf:
+                what = name.replace("_", " ")
+                raise ValueError(f"joint {self.name!r}: the {what} must be more than 0, not {value:g}")
 
 
 class Env(ABC):

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from llm3.errors import InputError
+from llm3_bullet.mounting import urdf_file
 from llm3_bullet.robot import RobotDescription
 from llm3_bullet.urdf import Urdf, UrdfJoint, read_urdf
 
@@ -30,6 +31,10 @@ class RobotModel:
     """(dof,): upper limits."""
     home: NDArray[np.float64]
     """(dof,): the description's home configuration."""
+    max_velocity: tuple[float | None, ...]
+    """(dof,): greatest speeds in rad/s (m/s where a joint slides); None where neither file nor description has one."""
+    max_acceleration: tuple[float | None, ...]
+    """(dof,): greatest accelerations in rad/s² (m/s²); None where the description has none."""
 
     def __init__(self, description: RobotDescription) -> None:
         """Read the URDF file and lay the description over it.
@@ -38,13 +43,19 @@ class RobotModel:
             InputError: The file is no good URDF, or the description does not fit it.
         """
         self.description = description
-        urdf = read_urdf(description.urdf)
+        with urdf_file(description) as file:
+            urdf = read_urdf(file)
         self.links, self.joints = urdf.links, urdf.joints
         self.parents = (-1, *(self.links.index(joint.parent) for joint in self.joints))
         _check(description, urdf)
         limits = np.array([self._limits(name) for name in description.arm_joints], dtype=float)
         self.low, self.high = limits.T
         self.home = np.array(description.home, dtype=float)
+        self.max_velocity = tuple(
+            description.max_velocity.get(name, self.joints[self.joint(name)].max_velocity)
+            for name in description.arm_joints
+        )
+        self.max_acceleration = tuple(description.max_acceleration.get(name) for name in description.arm_joints)
         for array in (self.low, self.high, self.home):
             array.setflags(write=False)
         if not self.within_limits(self.home[None])[0]:
@@ -108,7 +119,8 @@ def _check(description: RobotDescription, urdf: Urdf) -> None:
     """See that all names exist and that the arm is one chain from the base to the tool."""
     joints = tuple(joint.name for joint in urdf.joints)
     gripper = description.gripper
-    for name in (*description.arm_joints, *gripper.joints, *description.joint_limits):
+    limited = (*description.joint_limits, *description.max_velocity, *description.max_acceleration)
+    for name in (*description.arm_joints, *gripper.joints, *limited):
         _position(description, "joint", name, joints)
     pairs = (name for pair in description.may_touch for name in pair)
     for name in (description.tool_link, *gripper.links, *description.mounted_links, *pairs):

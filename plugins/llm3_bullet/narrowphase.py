@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +17,8 @@ from llm3.errors import InputError
 from llm3.types import ITSELF, Contact
 from llm3_bullet.clients import BulletClient, quiet
 from llm3_bullet.model import RobotModel
+from llm3_bullet.mounting import urdf_file
+from llm3_bullet.robot import RobotDescription
 from llm3_bullet.scene import Scene, Size
 
 Array = NDArray[np.float64]
@@ -47,7 +48,7 @@ class Narrowphase:
             InputError: PyBullet cannot load the robot.
         """
         self._client = client
-        self.robot = _load(client, model.description.urdf)
+        self.robot = _load(client, model.description)
         self._joints = [*model.arm_joints, *model.finger_joints]
         gripper = {model.link(name) for name in model.description.gripper.links}
         self._parts = ["gripper" if link in gripper else "arm" for link in range(len(model.links))]
@@ -135,15 +136,14 @@ class Narrowphase:
         return body
 
 
-def _load(client: BulletClient, urdf: Path) -> int:
+def _load(client: BulletClient, robot: RobotDescription) -> int:
     drawn = client.getConnectionInfo()["connectionMethod"] == client.GUI
+    flags = 0 if drawn else client.URDF_IGNORE_VISUAL_SHAPES
     try:
-        with quiet():
-            return int(
-                client.loadURDF(str(urdf), useFixedBase=True, flags=0 if drawn else client.URDF_IGNORE_VISUAL_SHAPES)
-            )
+        with urdf_file(robot) as file, quiet():
+            return int(client.loadURDF(str(file), useFixedBase=True, flags=flags))
     except client.error:
         raise InputError(
-            f"PyBullet cannot load the robot file {urdf}: a shape in it, or a mesh file that it names, is missing or "
-            f"broken."
+            f"PyBullet cannot load the robot file {robot.urdf}: a shape in it, or a mesh file that it names, is "
+            f"missing or broken."
         ) from None

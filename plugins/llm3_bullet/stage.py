@@ -17,6 +17,7 @@ from llm3.types import EventKind, Held, Motion
 from llm3_bullet.clients import BulletClient, quiet
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
+from llm3_bullet.mounting import urdf_file
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.scene import Box
 
@@ -59,8 +60,8 @@ class Stage:
         """
         self._client, self._colors, self._camera, self._pause = client, colors, camera, pause
         self._model, self._kinematics = model, Kinematics(model)
-        with quiet():
-            self._robot = int(client.loadURDF(str(model.description.urdf), useFixedBase=True))
+        with urdf_file(model.description) as file, quiet():
+            self._robot = int(client.loadURDF(str(file), useFixedBase=True))
         self._bodies: dict[str, int] = {}
         self._held: Held | None = None
         self._opening = model.description.gripper.max_opening

@@ -33,6 +33,8 @@ class UrdfJoint:
     """(3,): unit vector in the joint's frame along or about which the child moves."""
     limits: tuple[float, float] | None
     """Lowest and highest position in radians or metres; None where the file states none."""
+    max_velocity: float | None
+    """In rad/s or m/s; None where the file states none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +53,22 @@ def read_urdf(path: Path) -> Urdf:
     Raises:
         InputError: The file cannot be read, is no URDF, or its links form no tree.
     """
+    root = read_xml(path)
+    try:
+        return _tree(
+            tuple(_attribute(link, "name", "a <link>") for link in root.findall("link")),
+            tuple(_joint(element) for element in root.findall("joint")),
+        )
+    except _FlawError as flaw:
+        raise InputError(f"the robot file {path}: {flaw}") from None
+
+
+def read_xml(path: Path) -> ET.Element:
+    """The <robot> of a URDF file.
+
+    Raises:
+        InputError: The file cannot be read, or is no URDF.
+    """
     try:
         root = ET.fromstring(path.read_bytes())  # noqa: S314  # a robot file that the user chose, not traffic
     except OSError as error:
@@ -59,13 +77,7 @@ def read_urdf(path: Path) -> Urdf:
         raise InputError(f"the robot file {path} is not XML: {error}.") from None
     if root.tag != "robot":
         raise InputError(f"the robot file {path} starts with <{root.tag}>; a URDF file starts with <robot>.")
-    try:
-        return _tree(
-            tuple(_attribute(link, "name", "a <link>") for link in root.findall("link")),
-            tuple(_joint(element) for element in root.findall("joint")),
-        )
-    except _FlawError as flaw:
-        raise InputError(f"the robot file {path}: {flaw}") from None
+    return root
 
 
 class _FlawError(Exception):
@@ -121,6 +133,7 @@ def _joint(element: ET.Element) -> UrdfJoint:
     if kind == "prismatic" and abs(length - 1.0) > 1e-3:  # PyBullet would multiply the position by it
         raise _FlawError(f"the <axis> of {owner} has the length {length:.6g}; a prismatic joint needs length 1.")
     limits = None
+    (velocity,) = _numbers(element, "limit", "velocity", owner, (0.0,))
     if kind in ("prismatic", "revolute") and element.find("limit") is not None:
         (low,) = _numbers(element, "limit", "lower", owner, (0.0,))
         (high,) = _numbers(element, "limit", "upper", owner, (0.0,))
@@ -133,6 +146,7 @@ def _joint(element: ET.Element) -> UrdfJoint:
         origin=origin,
         axis=axis / length if length else axis,
         limits=limits,
+        max_velocity=velocity or None,
     )
 
 

@@ -7,7 +7,7 @@ from llm3_bullet.collision import CollisionChecker
 from llm3_bullet.inverse import InverseKinematics
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
-from llm3_bullet.robot import ParallelGripper, RobotDescription
+from llm3_bullet.robot import Gripper, RobotDescription
 from llm3_bullet.settle import Settler
 from llm3_bullet.touchdown import TouchdownPlanner
 
@@ -33,7 +33,7 @@ class Workcell:
         self.touchdowns = TouchdownPlanner(self.kinematics, self.inverse, self.checker)
 
     @property
-    def gripper(self) -> ParallelGripper:
+    def gripper(self) -> Gripper:
         """The robot's gripper."""
         return self.model.description.gripper
 

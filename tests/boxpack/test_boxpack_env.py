@@ -101,7 +101,7 @@ def test_another_env_on_the_same_workcell_does_not_matter(make, env, asked, answ
 
 
 def test_a_fresh_env_gives_the_same_answers_and_two_worlds_do_not_notice_each_other(domain: BoxPack, asked, answers):
-    first, second = (domain.make(INSTANCE, {"walls": "0"}) for _ in range(2))
+    first, second = (domain.make(INSTANCE, {"robot": "panda", "walls": "0"}) for _ in range(2))
     for question, answer in zip(asked, answers, strict=True):
         assert question(second) == answer
         assert question(first) == answer
@@ -160,7 +160,7 @@ def test_what_may_be_asked_of_it(env):
 
 
 def test_it_closes_twice_and_prints_nothing(domain: BoxPack, capfd):
-    env = domain.make(INSTANCE, {"walls": "0.03"})
+    env = domain.make(INSTANCE, {"robot": "panda", "walls": "0.03"})
     after(env, env.reset(), pick("red_box"))
     refused(env, env.reset(), place("red_box", 0.6, 0.0))
     env.close()

@@ -191,7 +191,7 @@ class TestEdgeOfTheTray:
 @pytest.mark.parametrize("height", ["high", "-0.01", "0.21", "nan", "inf", ""])
 def test_walls_of_a_height_that_cannot_be_are_refused(domain, height):
     with pytest.raises(UsageError) as error:
-        domain.make(TWO, {"walls": height})
+        domain.make(TWO, {"robot": "panda", "walls": height})
     assert str(error.value) == f"option 'walls' must be a height from 0 to 0.2 m, not {height!r}."
 
 

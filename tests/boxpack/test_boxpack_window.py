@@ -30,7 +30,7 @@ def carried_out(env, state) -> Motion:
 def test_it_gives_the_same_transitions_and_plays_them(instance, monkeypatch):
     monkeypatch.setattr(window, "LAST_LOOK", 0.0)
     waits: list[float] = []
-    plain = BoxPack().make(instance, {"walls": "0"})
+    plain = BoxPack().make(instance, {"robot": "panda", "walls": "0"})
     shown = WindowEnv(instance, Workcell(panda()), 0.0, connect(), waits.append)
     try:
         state = plain.reset()
@@ -46,4 +46,4 @@ def test_it_gives_the_same_transitions_and_plays_them(instance, monkeypatch):
 def test_without_a_screen_there_is_one_clear_line(instance, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
     with pytest.raises(Exception, match="DISPLAY is not set, so there is no screen to open it on"):
-        BoxPack().make_in_window(instance, {"walls": "0"})
+        BoxPack().make_in_window(instance, {"robot": "panda", "walls": "0"})

@@ -14,7 +14,7 @@ from llm3.types import Entity, Held, Pose
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.grasps import OPENING_MARGIN
 from llm3_boxpack.wording import describe, task_text
-from llm3_bullet.robots.panda import panda
+from llm3_bullet.robots import iiwa, panda
 
 TWO = problem(box("red_box", 0.386, -0.4281, CUBE), box("green_box", 0.39, 0.2, BAR, 0.25))
 TASK = """\
@@ -38,11 +38,18 @@ def test_the_task_with_walls(make):
 
 
 def test_the_figures_are_those_of_the_robot_in_use():
-    robot = panda()
-    wider = replace(robot, gripper=replace(robot.gripper, max_opening=0.1, finger_reach=0.05))
-    text = task_text(wider, OPENING_MARGIN, 0.0)
+    text = task_text(replace(panda().fingers, max_opening=0.1, finger_reach=0.05), 0.0)
     assert "no more than 0.092 m apart" in text
     assert "about 0.058 m of free space" in text
+
+
+def test_with_a_suction_cup_the_task_says_how_that_takes_a_box():
+    common = TASK[: TASK.index("The gripper takes")]
+    assert task_text(iiwa().gripper, 0.0) == (
+        f"{common}The gripper is a suction cup, which takes a box from above by the middle of its upper face; the face "
+        "must be at least 0.028 m wide. It needs no free space beside the box. When it has taken a box, or let go of "
+        "it, it moves straight up."
+    )
 
 
 def test_the_initial_state(make):

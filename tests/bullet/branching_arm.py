@@ -41,12 +41,12 @@ def branching_arm(folder, text=None, **overrides):
     path.write_text(urdf() if text is None else text)
     fields = {
         "name": "branching",
-        "urdf": path,
+        "urdf": str(path),
         "arm_joints": ("j1", "j2", "j3"),
         "tool_link": "tip",
         "home": (0.0, 0.1, 0.2),
         "joint_limits": {"j3": (-2.0, 4.0)},
-        "gripper": ParallelGripper(
+        "fingers": ParallelGripper(
             joints=("f1", "f2"),
             links=("left", "right"),
             max_opening=0.06,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from llm3_bullet.mounting import urdf_file
 from llm3_bullet.robot import RobotDescription
 from llm3_bullet.scene import Scene
 
@@ -13,7 +14,8 @@ class PlainWorld:
 
     def __init__(self, client, description: RobotDescription, scene: Scene) -> None:
         self.client, self.description, self.scene = client, description, scene
-        self.robot = client.loadURDF(str(description.urdf), useFixedBase=True)
+        with urdf_file(description) as file:
+            self.robot = client.loadURDF(str(file), useFixedBase=True)
         infos = [client.getJointInfo(self.robot, i) for i in range(client.getNumJoints(self.robot))]
         self.joints = {info[1].decode(): info[0] for info in infos}
         self.links = {client.getBodyInfo(self.robot)[0].decode(): -1}

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -72,7 +73,7 @@ def test_a_link_without_a_shape_has_no_hull(checkers):
 
 def test_a_missing_mesh_is_one_line(tmp_path):
     description = toy_arm(tmp_path)
-    description.urdf.write_text(URDF.replace(BOX, '<mesh filename="nowhere.obj"/>'))
+    Path(description.urdf).write_text(URDF.replace(BOX, '<mesh filename="nowhere.obj"/>'))
     with connect() as client, pytest.raises(InputError) as caught:
         Narrowphase(client, RobotModel(description))
     assert str(caught.value) == (

@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 from llm3_bullet.clients import connect, quiet
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
-from llm3_bullet.robots import panda
+from llm3_bullet.mounting import urdf_file
+from llm3_bullet.robots import iiwa, panda
 
-ROBOTS = ("panda", "branching")
+ROBOTS = ("panda", "iiwa", "branching")
 QUICK = settings(deadline=None, max_examples=40)
 seeds = st.integers(0, 2**32 - 1)
 robots = st.sampled_from(ROBOTS)
@@ -22,7 +23,7 @@ openings = st.floats(0.0, 0.06)
 
 @pytest.fixture(scope="module")
 def arms(tmp_path_factory):
-    descriptions = {"panda": panda(), "branching": branching_arm(tmp_path_factory.mktemp("urdf"))}
+    descriptions = {"panda": panda(), "iiwa": iiwa(), "branching": branching_arm(tmp_path_factory.mktemp("urdf"))}
     return {name: Kinematics(RobotModel(description)) for name, description in descriptions.items()}
 
 
@@ -32,8 +33,8 @@ def in_pybullet(arms):
     with connect() as client:
 
         def load(model):
-            with quiet():
-                return client.loadURDF(str(model.description.urdf), useFixedBase=True)
+            with urdf_file(model.description) as file, quiet():
+                return client.loadURDF(str(file), useFixedBase=True)
 
         bodies = {name: load(arm.model) for name, arm in arms.items()}
 

@@ -11,8 +11,11 @@ import pytest
 from llm3.errors import MissingDependency
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
+from llm3_bullet.robot_files import locate
 from llm3_bullet.robots import panda
 from llm3_bullet.urdf import read_urdf
+
+PANDA = locate(panda().urdf)
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +24,7 @@ def model():
 
 
 def mesh_vertices(name):
-    lines = (panda().urdf.parent / "meshes" / "collision" / name).read_text().splitlines()
+    lines = (PANDA.parent / "meshes" / "collision" / name).read_text().splitlines()
     return np.array([line.split()[1:4] for line in lines if line.startswith("v ")], dtype=float)
 
 
@@ -31,7 +34,7 @@ def test_the_pandas_limits_are_those_that_its_maker_publishes(model):
 
 
 def test_the_pandas_limits_are_tighter_than_those_of_the_urdf(model):
-    limits = {joint.name: joint.limits for joint in read_urdf(panda().urdf).joints}
+    limits = {joint.name: joint.limits for joint in read_urdf(PANDA).joints}
     for name, low, high in zip(panda().arm_joints, model.low, model.high, strict=True):
         assert limits[name][0] < low < high < limits[name][1]
 
@@ -58,7 +61,7 @@ def test_the_pandas_hand_is_as_large_as_its_meshes(model):
     palm = mesh_vertices("hand.obj")[:, 2].max()
     assert panda().gripper.palm_height == pytest.approx(from_tool_to_hand - palm, abs=1e-4)
     assert panda().gripper.finger_reach == pytest.approx(mesh_vertices("finger.obj")[:, 1].max(), abs=1e-4)
-    high = [read_urdf(panda().urdf).joints[number].limits[1] for number in model.finger_joints]
+    high = [read_urdf(PANDA).joints[number].limits[1] for number in model.finger_joints]
     assert panda().gripper.max_opening == pytest.approx(sum(high))
 
 
@@ -79,5 +82,8 @@ def test_describing_the_panda_loads_no_simulator():
 def test_without_pybullet_the_panda_says_what_is_missing(monkeypatch):
     monkeypatch.setitem(sys.modules, "pybullet_data", None)
     with pytest.raises(MissingDependency) as caught:
-        panda()
-    assert str(caught.value) == "the Panda's model comes with pybullet, which is not installed."
+        RobotModel(panda())
+    assert str(caught.value) == (
+        "the robot file package://pybullet_data/franka_panda/panda.urdf needs the Python package pybullet_data, "
+        "which is not installed."
+    )

@@ -48,11 +48,11 @@ def toy_arm(folder: Path) -> RobotDescription:
     path.write_text(URDF)
     return RobotDescription(
         name="toy",
-        urdf=path,
+        urdf=str(path),
         arm_joints=("slide", "shoulder", "elbow"),
         tool_link="tip",
         home=(0.0, 0.3, 0.3),
-        gripper=ParallelGripper(
+        fingers=ParallelGripper(
             joints=("left_finger", "right_finger"),
             links=("hand", "left", "right"),
             max_opening=0.08,

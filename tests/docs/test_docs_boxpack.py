@@ -24,7 +24,14 @@ PROBLEM = BoxpackInstance(
     BasketSpec((0.65, 0.0), (0.22, 0.21)),
     tuple(BoxSpec(name, size, (0.39, y)) for (name, size), y in zip(SIZES.items(), (-0.3, 0.3), strict=True)),
 )
-GRIPPER = ParallelGripper(("left", "right"), ("hand",), 0.08, 0.0264, (0.0, 1.0, 0.0), 0.039)
+GRIPPER = ParallelGripper(
+    joints=("left", "right"),
+    links=("hand",),
+    max_opening=0.08,
+    finger_reach=0.0264,
+    closing_axis=(0.0, 1.0, 0.0),
+    palm_height=0.039,
+)
 
 
 def numbers(cell: str) -> tuple[float, ...]:

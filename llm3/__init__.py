@@ -14,6 +14,7 @@ from llm3.interfaces import (
     Option,
     PlannerSettings,
     Strategy,
+    TrajectoryTimer,
 )
 from llm3.prompts import Prompt
 from llm3.registry import Registry
@@ -35,6 +36,7 @@ __all__ = [
     "Registry",
     "RunConfig",
     "Strategy",
+    "TrajectoryTimer",
     "assemble",
     "hookimpl",
     "solve",

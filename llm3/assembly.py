@@ -8,7 +8,7 @@ from math import inf
 from types import TracebackType
 from typing import Any
 
-from llm3.errors import MissingCapability, UnknownName, UsageError
+from llm3.errors import MissingCapability, MissingDependency, UnknownName, UsageError
 from llm3.guarded import guarded
 from llm3.interfaces import (
     BackendSettings,
@@ -20,11 +20,16 @@ from llm3.interfaces import (
     Options,
     PlannerSettings,
     Strategy,
+    TrajectoryTimer,
 )
 from llm3.prompts import Prompt
 from llm3.registry import Registry
 from llm3.solve import Budget, solve
 from llm3.types import FrozenDict, Observer, Result, Sketch, nobody
+
+USUAL_TIMER = "toppra"
+UNTIMED = "none"
+"""The name that means no timer."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,8 @@ class RunConfig:
     """What the planner may spend on one query."""
     planner_seconds: float = 30.0
     """A guard on one query, not the budget: a run that hits it is marked, and may not repeat."""
+    timing: str | None = None
+    """What puts times to the plan's motions, or `none`; None is the usual timer where it is installed, else `none`."""
     max_llm_calls: int = 20
     trace_size: int = 5
     options: Mapping[str, str] = field(default_factory=FrozenDict)
@@ -95,6 +102,7 @@ class Run:
     backend: LLMBackend
     planner: MotionPlanner
     feedback: FeedbackSynthesizer
+    timer: TrajectoryTimer | None = None
 
     def solve(self, observer: Observer = nobody) -> Result:
         """Run it; see :func:`llm3.solve`."""
@@ -105,6 +113,7 @@ class Run:
             planner=self.planner,
             feedback=self.feedback,
             prompt=self.prompt,
+            timer=self.timer,
             skeleton=self.skeleton,
             budget=Budget(config.max_llm_calls, config.trace_size),
             seed=config.seed,
@@ -184,6 +193,23 @@ def given_skeleton(domain: Domain, instance: Any, strategy: Strategy, name: str)
     return skeleton
 
 
+def choose_timer(registry: Registry, name: str | None) -> TrajectoryTimer | None:
+    """The timer of this name; for None the usual one if it can be had.
+
+    Raises:
+        UnknownName: There is none of this name.
+        MissingDependency: It needs a package that is not installed.
+    """
+    if name == UNTIMED:
+        return None
+    if name is not None:
+        return registry.timer(name)
+    try:
+        return registry.timer(USUAL_TIMER)
+    except (UnknownName, MissingDependency):
+        return None
+
+
 def assemble(registry: Registry, config: RunConfig, instance: Any = None, window: bool = False) -> Run:
     """Make everything that a run needs.
 
@@ -200,12 +226,14 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
     strategy = registry.strategy(config.strategy)
     feedback = registry.feedback(config.feedback)
     planner = registry.planner(config.planner, PlannerSettings(config.planner_iterations, config.planner_seconds))
+    timer = choose_timer(registry, config.timing)
     prompt = Prompt(strategy)
     if instance is None:
         instance = choose_instance(domain, config.setting, config.seed)
         config = replace(config, setting=domain.default_setting if config.setting is None else config.setting)
     skeleton = given_skeleton(domain, instance, strategy, config.strategy)
-    config = replace(config, llm=config.backend)
+    timing = UNTIMED if timer is None else config.timing or USUAL_TIMER
+    config = replace(config, llm=config.backend, timing=timing)
     name, _, argument = config.backend.partition(":")
     backend = registry.backend(
         name,
@@ -224,4 +252,4 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
     except BaseException:
         backend.close()
         raise
-    return Run(config, problem, skeleton, prompt, backend, planner, feedback)
+    return Run(config, problem, skeleton, prompt, backend, planner, feedback, timer)

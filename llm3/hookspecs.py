@@ -27,6 +27,7 @@ from llm3.interfaces import (
     MotionPlanner,
     PlannerSettings,
     Strategy,
+    TrajectoryTimer,
 )
 
 hookspec = pluggy.HookspecMarker("llm3")
@@ -59,3 +60,8 @@ def llm3_backends() -> Mapping[str, Callable[[BackendSettings], LLMBackend]]:  #
 @hookspec
 def llm3_strategies() -> Mapping[str, Callable[[], Strategy]]:  # type: ignore[empty-body]  # a specification only
     """Prompt strategies, for ``--strategy NAME``."""
+
+
+@hookspec
+def llm3_timers() -> Mapping[str, Callable[[], TrajectoryTimer]]:  # type: ignore[empty-body]  # a specification only
+    """Timers, for ``--timing NAME``: they put times to the paths of a plan."""

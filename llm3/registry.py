@@ -19,6 +19,7 @@ from llm3.interfaces import (
     MotionPlanner,
     PlannerSettings,
     Strategy,
+    TrajectoryTimer,
 )
 
 ENTRY_POINT_GROUP = "llm3"
@@ -27,6 +28,7 @@ HOOKS = {
     "strategy": "llm3_strategies",
     "feedback": "llm3_feedback",
     "planner": "llm3_planners",
+    "timer": "llm3_timers",
     "backend": "llm3_backends",
 }
 """The hook that brings each kind of thing."""
@@ -191,6 +193,10 @@ class Registry:
     def planner(self, name: str, settings: PlannerSettings | None = None) -> MotionPlanner:
         """The motion planner of this name; raises like :meth:`domain`."""
         return self._make(MotionPlanner, "planner", name, settings or PlannerSettings())  # type: ignore[type-abstract]  # as above
+
+    def timer(self, name: str) -> TrajectoryTimer:
+        """The timer of this name; raises like :meth:`domain`."""
+        return self._make(TrajectoryTimer, "timer", name)  # type: ignore[type-abstract]  # as above
 
     def feedback(self, name: str) -> FeedbackSynthesizer:
         """The feedback level of this name; raises like :meth:`domain`."""

@@ -124,21 +124,21 @@ class Roller:
         with self._phase("prepare"):
             rng = generator("prepare", self._seed, state, action, tries)
             answer = guarded(self._env.prepare, (MotionProblem, NoMotion, Failure), state, action, rng)
-        self.stats += answer.stats
         if isinstance(answer, MotionProblem) or (isinstance(answer, Failure) and answer.kind.is_motion):
             self.stats += Stats(motion_calls=1)
         if isinstance(answer, MotionProblem):
             with self._phase("plan"):
                 rng = generator("plan", self._seed, state, action, tries)
                 path = guarded(self._planner.plan, (Path, Failure), answer, rng)
-            self.stats += path.stats
+            self.stats += answer.cost + path.stats
             if isinstance(path, Failure):
                 return Verdict(failure=path)
             motion = answer.motion(path)
-        elif isinstance(answer, NoMotion):
-            motion = Motion()
         else:
-            return Verdict(failure=answer)
+            self.stats += answer.stats
+            if isinstance(answer, Failure):
+                return Verdict(failure=answer)
+            motion = Motion()
         with self._phase("apply"):
             transition = guarded(self._env.apply, (Transition,), state, action, motion)
         return Verdict(PlannedAction(action, motion, transition.state), transition.notes)

@@ -8,11 +8,12 @@ from time import perf_counter
 
 from llm3.errors import PluginError, UsageError
 from llm3.guarded import guarded
-from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner
+from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner, TrajectoryTimer
 from llm3.parsing import parse_reply
 from llm3.prompts import Prompt
 from llm3.rollout import Roller, Tell
 from llm3.seeding import derive_seed
+from llm3.timing import timed
 from llm3.trace import Trace
 from llm3.types import (
     ActionTried,
@@ -63,6 +64,7 @@ def solve(
     planner: MotionPlanner,
     feedback: FeedbackSynthesizer,
     prompt: Prompt,
+    timer: TrajectoryTimer | None = None,
     skeleton: tuple[Sketch, ...] = (),
     budget: Budget = Budget(),  # frozen, so one for all calls is fine
     seed: int = 0,
@@ -77,6 +79,7 @@ def solve(
         planner: Finds the paths.
         feedback: Puts what failed into words.
         prompt: How the model is asked.
+        timer: Puts times to the motions of the plan that is found, if the world knows the limits of all joints.
         skeleton: The given action sequence, where the strategy fixes it.
         budget: How many model calls, and how much of the past a prompt tells.
         seed: All randomness derives from it: the same seed and the same replies give the same run.
@@ -127,6 +130,10 @@ def solve(
         trace = trace.add(attempt, words)
         stats += Stats(unreadable_replies=int(unreadable is not None))
         observer(AttemptEnded(attempt, words, stats + roller.stats))
+    if solved and timer:
+        began = clock()
+        plan = timed(plan, timer, env.joints)
+        stats += Stats(seconds={"timing": clock() - began})
     result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start)
     observer(RunEnded(result))
     return result

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from llm3.errors import UsageError
-from llm3.interfaces import Domain, Env, Option, Options, Regions, StandIn
+from llm3.interfaces import Domain, Env, Option, Options, PlanVerifier, Regions, StandIn
 from llm3.types import Sketch
 from llm3_boxpack.actions import PLACE, skeleton
 from llm3_boxpack.instance import BoxpackInstance
@@ -56,11 +56,12 @@ class BoxPack(Domain):
         return skeleton(instance)
 
     def regions(self, instance: Any) -> Regions:
-        """The inside of the basket."""
-        (x, y), (dx, dy) = instance.basket.center, instance.basket.size
+        """For each box the centres at which it can lie in the basket at all, turned suitably."""
+        basket = instance.basket
         return {
-            (PLACE.name, "x"): (x - dx / 2, x + dx / 2),
-            (PLACE.name, "y"): (y - dy / 2, y + dy / 2),
+            (PLACE.name, (box.name,), axis): _inset(center, side, min(box.size[:2]))
+            for box in instance.boxes
+            for axis, center, side in zip("xy", basket.center, basket.size, strict=True)
         }
 
     def stand_in(self) -> StandIn:
@@ -68,6 +69,19 @@ class BoxPack(Domain):
         from llm3_boxpack.stand_in import reply
 
         return reply
+
+    def verifier(self, instance: Any, options: Options) -> PlanVerifier:
+        """A plain PyBullet world, in which a plan is played again."""
+        from llm3_boxpack.verification import BoxpackVerifier
+        from llm3_bullet.robots import find_robot
+
+        return BoxpackVerifier(instance, find_robot(options["robot"]), _wall_height(options["walls"]))
+
+
+def _inset(center: float, side: float, width: float) -> tuple[float, float]:
+    """Where along a side the centre of something of this width can be; the middle if it is too wide."""
+    room = max(0.0, side - width) / 2
+    return center - room, center + room
 
 
 def _wall_height(text: str) -> float:

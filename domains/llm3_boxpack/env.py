@@ -107,9 +107,9 @@ class BoxpackEnv(Env):
         if isinstance(ways, Failure):
             return ways
         start = np.array(state.configuration)
-        goals, failure, stats = self._cell.touchdowns.goals(ways, start, CLEARANCE, rng)
-        if failure:
-            return failure
+        goals = self._cell.touchdowns.goals(ways, start, CLEARANCE, rng)
+        if isinstance(goals, Failure):
+            return goals
         scene = self.scene(state)
         transit = self._cell.checker.view(scene)
         return MotionProblem(
@@ -121,7 +121,6 @@ class BoxpackEnv(Env):
             resolution=transit.resolution(CLEARANCE),
             explain=lambda q: transit.contacts(q, CLEARANCE),
             before=() if state.held else self._manipulation.open_to(scene.opening),
-            stats=stats,
         )
 
     def apply(self, state: State, action: Action, motion: Motion) -> Transition:

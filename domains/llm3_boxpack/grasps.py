@@ -17,8 +17,8 @@ ABOVE_CENTER = 0.012
 the same height."""
 PALM_GAP = 0.005
 """The palm stays this far above a tall box, in metres: it is then taken higher up."""
-CUP_GAP = 0.0005
-"""A cup stops this far above a box, in metres; what is left its lip bridges."""
+CUP_GAP = 0.0015
+"""A cup stops this far above a box, in metres: PyBullet's shapes are up to 1 mm thicker than drawn, and a lip gives."""
 
 
 @dataclass(frozen=True, eq=False)

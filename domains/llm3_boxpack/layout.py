@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from llm3.types import Pose
 from llm3_boxpack.instance import TABLE, TRAY_THICKNESS, WALLS, BasketSpec
 from llm3_boxpack.rectangles import Rectangle
+from llm3_bullet.poses import turned
 from llm3_bullet.scene import Box
 
 TABLE_THICKNESS = 0.05
@@ -63,7 +63,7 @@ class Stance:
 
     def orientation(self, yaw: float) -> NDArray[np.float64]:
         """(3, 3): the box's orientation on this face at another yaw."""
-        return np.asarray(Rotation.from_euler("z", yaw).as_matrix() @ self.base)
+        return np.asarray(turned(yaw) @ self.base)
 
     def footprint(self, center: tuple[float, float], yaw: float | None = None) -> Rectangle:
         """What the box covers, standing at `center` with this yaw or with its own."""
@@ -83,5 +83,5 @@ def stance(orientation: NDArray[np.float64], size: tuple[float, float, float]) -
         return None
     first, second = (a for a in range(3) if a != vertical)
     yaw = float(np.arctan2(orientation[1, first], orientation[0, first]))
-    base = np.asarray(Rotation.from_euler("z", -yaw).as_matrix() @ orientation).round()
+    base = np.asarray(turned(-yaw) @ orientation).round()
     return Stance(yaw, (first, second, vertical), base, (size[first], size[second], size[vertical]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,8 +41,8 @@ class Manipulation:
         """
         self._boxes, self._furniture, self._basket, self._gripper = boxes, furniture, basket, gripper
 
-    def pick(self, state: State, name: str) -> tuple[Touchdown, ...] | Failure:
-        """The ways to pick a box up, or the precondition that is not met."""
+    def pick(self, state: State, name: str) -> Iterable[Touchdown] | Failure:
+        """The ways to pick a box up, each made when it is asked for, or the precondition that is not met."""
         if state.held:
             return _precondition(f"The gripper already holds {state.held.object}, so it cannot pick {name}.")
         box, pose = self._boxes[name], as_matrix(state.poses[name])
@@ -52,7 +52,7 @@ class Manipulation:
         grasps = top_grasps(pose[:3, 3], standing, self._gripper)
         if not grasps:
             return _precondition(self._misfit(name))
-        return tuple(self._pick(state.poses, name, pose, grasp) for grasp in grasps)
+        return (self._pick(state.poses, name, pose, grasp) for grasp in grasps)
 
     def _pick(self, poses: Poses, name: str, pose: NDArray[np.float64], grasp: Grasp) -> Touchdown:
         held = Held(name, as_pose(np.linalg.inv(grasp.tool) @ pose))
@@ -74,7 +74,7 @@ class Manipulation:
             return f"{name} is too narrow for the suction cup, which takes from {narrowest(self._gripper):g} m."
         return f"{name} is too wide for the gripper, which takes up to {widest(self._gripper):g} m."
 
-    def place(self, state: State, name: str, x: float, y: float, theta: float) -> tuple[Touchdown, ...] | Failure:
+    def place(self, state: State, name: str, x: float, y: float, theta: float) -> Iterable[Touchdown] | Failure:
         """The way to put the held box down, or the precondition that is not met."""
         if state.held is None or state.held.object != name:
             hand = f"holds {state.held.object}" if state.held else "is empty"

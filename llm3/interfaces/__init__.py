@@ -4,21 +4,27 @@ from llm3.interfaces.backend import BackendSettings, LLMBackend, Regions, StandI
 from llm3.interfaces.domain import Domain, Option, Options
 from llm3.interfaces.env import Env, Joint
 from llm3.interfaces.feedback import FeedbackSynthesizer
+from llm3.interfaces.free_space import FreeSpace
 from llm3.interfaces.planner import MotionPlanner, PlannerSettings
 from llm3.interfaces.strategy import Strategy
+from llm3.interfaces.timing import TrajectoryTimer
+from llm3.interfaces.verifier import PlanVerifier
 
 __all__ = [
     "BackendSettings",
     "Domain",
     "Env",
     "FeedbackSynthesizer",
+    "FreeSpace",
     "Joint",
     "LLMBackend",
     "MotionPlanner",
     "Option",
     "Options",
+    "PlanVerifier",
     "PlannerSettings",
     "Regions",
     "StandIn",
     "Strategy",
+    "TrajectoryTimer",
 ]

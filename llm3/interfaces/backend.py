@@ -10,8 +10,8 @@ import numpy as np
 
 from llm3.types import Completion, Context, FrozenDict, Request, Sketch
 
-Regions = Mapping[tuple[str, str], tuple[float, float]]
-"""Tighter ranges for random sampling, by (action name, parameter name)."""
+Regions = Mapping[tuple[str, tuple[str, ...], str], tuple[float, float]]
+"""Tighter ranges for random sampling, by (action name, its objects, parameter name)."""
 StandIn = Callable[[Context, np.random.Generator], str]
 """Writes a reply from what a prompt tells: a rule-based stand-in for a model."""
 

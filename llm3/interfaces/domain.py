@@ -9,6 +9,7 @@ from typing import Any
 
 from llm3.interfaces.backend import Regions, StandIn
 from llm3.interfaces.env import Env
+from llm3.interfaces.verifier import PlanVerifier
 from llm3.types import Sketch
 
 Options = Mapping[str, str]
@@ -72,4 +73,8 @@ class Domain(ABC):
 
     def make_in_window(self, instance: Any, options: Options) -> Env | None:  # noqa: ARG002  # part of the interface
         """Like `make`, with the world shown in a window."""
+        return None
+
+    def verifier(self, instance: Any, options: Options) -> PlanVerifier | None:  # noqa: ARG002  # part of the interface
+        """A second look at plans of this instance, for ``llm3 verify``; it shares no code with `make`."""
         return None

@@ -21,6 +21,7 @@ from llm3.types.motion import (
     Event,
     EventKind,
     Goal,
+    Goals,
     Mask,
     Motion,
     MotionProblem,
@@ -33,6 +34,8 @@ from llm3.types.motion import (
 from llm3.types.results import PlannedAction, Result
 from llm3.types.state import Fact, GoalStatus, Held, Pose, State, Transition
 from llm3.types.stats import Stats
+from llm3.types.trajectory import Trajectory
+from llm3.types.verification import Defect, Verification
 
 __all__ = [
     "ITSELF",
@@ -44,6 +47,7 @@ __all__ = [
     "Completion",
     "Contact",
     "Context",
+    "Defect",
     "Entity",
     "Event",
     "EventKind",
@@ -54,6 +58,7 @@ __all__ = [
     "FrozenDict",
     "Goal",
     "GoalStatus",
+    "Goals",
     "Held",
     "Mask",
     "Message",
@@ -81,8 +86,10 @@ __all__ = [
     "Sketch",
     "State",
     "Stats",
+    "Trajectory",
     "Transition",
     "Vector",
+    "Verification",
     "Waypoints",
     "nobody",
 ]

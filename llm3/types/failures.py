@@ -68,6 +68,10 @@ class Contact:
     """Unit vector in the world frame that points from the object to the part: the way out."""
     point: tuple[float, ...] = ()
     """Where on the object, in metres, in the world frame."""
+    link: str = ""
+    """The URDF's name of the robot's link that touches; empty for what is held, and where it is not known."""
+    other_link: str = ""
+    """The URDF's name of the robot's link that is touched; empty unless the object is `ITSELF`."""
 
 
 @dataclass(frozen=True)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +14,7 @@ from llm3.types.checks import finite
 from llm3.types.failures import Contact
 from llm3.types.state import Pose
 from llm3.types.stats import Stats
+from llm3.types.trajectory import Trajectory
 
 Vector = NDArray[np.float64]
 """A configuration, shape (dof,), or several of them, shape (N, dof)."""
@@ -55,6 +57,8 @@ class Segment:
     """What the piece is for, such as ``"transit"``, ``"approach"``, ``"lift"``, ``"descend"`` or ``"retreat"``."""
     waypoints: Waypoints
     events: tuple[Event, ...] = ()
+    trajectory: Trajectory | None = None
+    """The same piece in time, from standstill to standstill; None where no times are known."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,13 @@ class Motion:
         """All events, in order."""
         return tuple(event for segment in self.segments for event in segment.events)
 
+    @property
+    def duration(self) -> float | None:
+        """How long the robot moves, in seconds, without the events; None where a segment has no trajectory."""
+        if any(segment.trajectory is None for segment in self.segments):
+            return None
+        return sum(segment.trajectory.duration for segment in self.segments if segment.trajectory)
+
 
 @dataclass(frozen=True)
 class Goal:
@@ -94,6 +105,57 @@ class Goal:
         object.__setattr__(self, "configuration", finite("a goal's configuration", self.configuration))
 
 
+class Goals(Sequence[Goal]):
+    """Goals in order of preference, each made when it is first looked at: most planners are content with the first."""
+
+    def __init__(self, goals: Iterable[Goal], cost: Callable[[], Stats] = Stats) -> None:
+        """Take the goals, ready or still to be made.
+
+        Args:
+            goals: At least one.
+            cost: Answers what it cost to make those that are made by then.
+        """
+        self._made: list[Goal] = []
+        self._left = iter(goals)
+        self._cost = cost
+        if not self._reach(0):
+            raise ValueError("a motion problem needs at least one goal")
+
+    @property
+    def stats(self) -> Stats:
+        """What it cost to make those that were looked at."""
+        return self._cost()
+
+    def __len__(self) -> int:
+        while self._reach(len(self._made)):
+            pass
+        return len(self._made)
+
+    @overload
+    def __getitem__(self, index: int) -> Goal: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Goal]: ...
+
+    def __getitem__(self, index: int | slice) -> Goal | Sequence[Goal]:
+        if isinstance(index, slice) or index < 0:
+            len(self)
+        else:
+            self._reach(index)
+        return self._made[index]
+
+    def _reach(self, index: int) -> bool:
+        """Make goals up to this one; False if there are not so many."""
+        while len(self._made) <= index:
+            goal = next(self._left, None)
+            if goal is None:
+                return False
+            if self._made and len(goal.configuration) != len(self._made[0].configuration):
+                raise ValueError("all goals of a motion problem must have the same number of joint values")
+            self._made.append(goal)
+        return True
+
+
 @dataclass(frozen=True, eq=False)
 class MotionProblem:
     """Find a path in free space from `start` to any one of `goals`.
@@ -103,8 +165,8 @@ class MotionProblem:
 
     start: Vector
     """Shape (dof,)."""
-    goals: tuple[Goal, ...]
-    """At least one, the preferred first."""
+    goals: Sequence[Goal]
+    """At least one, the preferred first. They are stored as `Goals`."""
     low: Vector
     """Lower joint limits, shape (dof,)."""
     high: Vector
@@ -120,18 +182,23 @@ class MotionProblem:
     before: tuple[Event, ...] = ()
     """What happens before the robot moves, such as opening the gripper."""
     stats: Stats = field(default=Stats())
-    """What it cost to prepare the problem."""
+    """What it cost to prepare the problem, the goals aside."""
+
+    @property
+    def cost(self) -> Stats:
+        """What it cost so far to prepare the problem and the goals that were looked at."""
+        return self.stats + (self.goals.stats if isinstance(self.goals, Goals) else Stats())
 
     def __post_init__(self) -> None:
         start = np.array(self.start, dtype=float)
         finite("a start's configuration", start.ravel())
         if start.ndim != 1:
             raise ValueError(f"start must be one configuration of shape (dof,), not {start.shape}")
-        if not self.goals:
-            raise ValueError("a motion problem needs at least one goal")
-        for goal in self.goals:
+        goals = self.goals if isinstance(self.goals, Goals) else Goals(self.goals)
+        for goal in (goals[0],) if goals is self.goals else self.goals:  # the others may not be made yet
             if len(goal.configuration) != len(start):
                 raise ValueError(f"a goal has {len(goal.configuration)} joint values, the start {len(start)}")
+        object.__setattr__(self, "goals", goals)
         object.__setattr__(self, "start", start)
         for name in ("low", "high", "resolution"):  # a scalar stands for the same value in every joint
             values = np.broadcast_to(np.asarray(getattr(self, name), dtype=float), start.shape)
@@ -164,6 +231,23 @@ class Path:
     def length(self) -> float:
         """Joint-space length: the sum of the Euclidean lengths of the pieces, in radians for an arm."""
         return float(np.linalg.norm(np.diff(self.waypoints, axis=0), axis=1).sum())
+
+    @property
+    def turning(self) -> float:
+        """How far from smooth it is: the sum of the angles, in joint space, by which it turns at its waypoints.
+
+        In radians: 0 for a straight line, π for each reversal; waypoints on a straight line add nothing.
+
+        Source: the total curvature of a polygon, J. W. Milnor, "On the total curvature of knots", Annals of
+        Mathematics 52, 1950.
+        """
+        pieces = np.diff(self.waypoints, axis=0)
+        lengths = np.linalg.norm(pieces, axis=1)
+        directions = pieces[lengths > 0] / lengths[lengths > 0, None]
+        sums, differences = directions[1:] + directions[:-1], directions[1:] - directions[:-1]
+        # Exact for small angles, too, where the arc cosine is not.
+        angles = 2 * np.arctan2(np.linalg.norm(differences, axis=1), np.linalg.norm(sums, axis=1))
+        return float(angles.sum())
 
 
 def _as_tuple(values: ArrayLike) -> tuple[float, ...]:

@@ -35,7 +35,7 @@ class Stats:
     step_downs: int = 0
     """Requests made again with fewer features, because the server refused one."""
     seconds: Mapping[str, float] = field(default_factory=FrozenDict)
-    """Wall-clock seconds by phase: ``model``, ``prepare``, ``plan``, ``apply``."""
+    """Wall-clock seconds by phase: ``model``, ``prepare``, ``plan``, ``apply``, ``timing``."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seconds", FrozenDict(self.seconds))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from llm3.types import Vector
 from llm3_birrt.budget import Budget
-from llm3_birrt.free_space import FreeSpace
+from llm3_birrt.joint_space import JointSpace
 from llm3_birrt.tree import Tree
 
 STEP = 0.12
@@ -27,7 +27,17 @@ class Bridge:
     """Which of the goals it ends at."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
+class Stop:
+    """An attempt to join the trees that was stopped."""
+
+    blocked: Vector
+    """The configuration, shape (dof,), that was not free."""
+    gap: float
+    """How far it was still to go, in joint space."""
+
+
+@dataclass(frozen=True, eq=False)
 class Gap:
     """The trees did not meet."""
 
@@ -37,10 +47,12 @@ class Gap:
     """Nodes of the tree that grew from the start."""
     goal_tree: int
     """Nodes of the tree that grew from the goals."""
+    stops: tuple[Stop, ...] = ()
+    """The attempts to join the trees, in order."""
 
 
 def rrt_connect(
-    space: FreeSpace, start: Vector, goals: Vector, budget: Budget, rng: np.random.Generator
+    space: JointSpace, start: Vector, goals: Vector, budget: Budget, rng: np.random.Generator
 ) -> Bridge | Gap:
     """Join the start to one of the goals, with new trees each time the old ones had their chance.
 
@@ -48,7 +60,7 @@ def rrt_connect(
     quicker than to wait. As their lifetime doubles, a solution that needs large trees is found as well.
 
     Args:
-        space: The free space.
+        space: The joint space.
         start: A free configuration, shape (dof,).
         goals: Free configurations, shape (G, dof).
         budget: Iterations and time.
@@ -63,7 +75,7 @@ def rrt_connect(
     """
     patience, gaps = PATIENCE, []
     while True:
-        result = _grow_trees(space, start, goals, budget, rng, patience)
+        result = _Trees(space, start, goals).grow(budget, rng, patience)
         if isinstance(result, Bridge):
             return result
         gaps.append(result)
@@ -72,54 +84,59 @@ def rrt_connect(
         patience *= 2
 
 
-def _grow_trees(
-    space: FreeSpace, start: Vector, goals: Vector, budget: Budget, rng: np.random.Generator, patience: int
-) -> Bridge | Gap:
-    """Grow a tree from the start and one from all goals, in turn, until they meet.
+@dataclass(eq=False)
+class _Trees:
+    """A tree from the start and one from all goals."""
 
-    An iteration extends one tree by a step towards a random configuration, then the other one step by step towards
-    the new node for as long as it is free.
-    """
-    step = STEP * float(np.linalg.norm(space.high - space.low))
-    start_tree, goal_tree = Tree(start[None]), Tree(goals)
-    grown, other = start_tree, goal_tree
-    gap = float(np.linalg.norm(goals - start, axis=1).min())
-    for _ in range(patience):
-        if not budget.spend():
-            break
-        new = _extend(space, grown, space.sample(rng), step)
-        if new is not None:
-            target = grown[new]
-            met = _approach(space, other, target, step)
-            gap = min(gap, float(np.linalg.norm(other[met] - target)))
-            if np.array_equal(other[met], target):
-                from_start, from_goal = (new, met) if grown is start_tree else (met, new)
-                return _join(start_tree, from_start, goal_tree, from_goal)
-        grown, other = other, grown
-    return Gap(gap, len(start_tree), len(goal_tree))
+    space: JointSpace
+    start: Vector
+    goals: Vector
+    stops: list[Stop] = field(default_factory=list)
 
+    def __post_init__(self) -> None:
+        self.start_tree, self.goal_tree = Tree(self.start[None]), Tree(self.goals)
 
-def _extend(space: FreeSpace, tree: Tree, target: Vector, step: float, base: int | None = None) -> int | None:
-    """Add a node one step from `base` (the nearest node by default) towards `target`, where that is free."""
-    base = tree.nearest(target) if base is None else base
-    configuration = space.step(tree[base], target, step)
-    return tree.add(configuration, base) if space.edge(tree[base], configuration) else None
+    def grow(self, budget: Budget, rng: np.random.Generator, patience: int) -> Bridge | Gap:
+        """Grow the trees in turn until they meet.
 
+        An iteration extends one tree by a step towards a random configuration; then the other one goes straight
+        towards the new node for as long as it is free.
+        """
+        step = STEP * self.space.diagonal
+        grown, other = self.start_tree, self.goal_tree
+        for _ in range(patience):
+            if not budget.spend():
+                break
+            new = self._extend(grown, self.space.sample(rng), step)
+            met = None if new is None else self._approach(other, grown[new], step)
+            if new is not None and met is not None:
+                from_start, from_goal = (new, met) if grown is self.start_tree else (met, new)
+                return self._join(from_start, from_goal)
+            grown, other = other, grown
+        nearest = min((stop.gap for stop in self.stops), default=np.inf)
+        at_first = float(np.linalg.norm(self.goals - self.start, axis=1).min())
+        return Gap(min(nearest, at_first), len(self.start_tree), len(self.goal_tree), tuple(self.stops))
 
-def _approach(space: FreeSpace, tree: Tree, target: Vector, step: float) -> int:
-    """Extend the tree towards `target` as far as it is free, and answer the node that came nearest."""
-    last = tree.nearest(target)
-    while not np.array_equal(tree[last], target):
-        new = _extend(space, tree, target, step, last)
-        if new is None:
-            break
-        last = new
-    return last
+    def _extend(self, tree: Tree, target: Vector, step: float) -> int | None:
+        """Add a node one step from the nearest one towards `target`, where that is free."""
+        base = tree.nearest(target)
+        configuration = self.space.step(tree[base], target, step)
+        return tree.add(configuration, base) if self.space.obstacle(tree[base], configuration) is None else None
 
+    def _approach(self, tree: Tree, target: Vector, step: float) -> int | None:
+        """Add nodes as far as the straight line to `target` is free; the last one's number where it is `target`."""
+        node = tree.nearest(target)
+        line = self.space.advance(tree[node], target, step)
+        for configuration in line.nodes:
+            node = tree.add(configuration, node)
+        if line.blocked is None:
+            return node
+        self.stops.append(Stop(line.blocked, float(np.linalg.norm(target - tree[node]))))
+        return None
 
-def _join(start_tree: Tree, from_start: int, goal_tree: Tree, from_goal: int) -> Bridge:
-    """The path through two nodes at the same configuration."""
-    there = start_tree.branch(from_start)[::-1]
-    onward = goal_tree.branch(from_goal)
-    waypoints = np.vstack([start_tree.configurations(there), goal_tree.configurations(onward[1:])])
-    return Bridge(waypoints, root=onward[-1])
+    def _join(self, from_start: int, from_goal: int) -> Bridge:
+        """The path through two nodes at the same configuration."""
+        there = self.start_tree.branch(from_start)[::-1]
+        onward = self.goal_tree.branch(from_goal)
+        waypoints = [self.start_tree.configurations(there), self.goal_tree.configurations(onward[1:])]
+        return Bridge(np.vstack(waypoints), root=onward[-1])

@@ -29,6 +29,8 @@ BOLD = 0.05
 CAUTIOUS = 0.5
 """λ for |e|² = 1: settles at the smallest error where it cannot."""
 
+_PATIENCE, _PROGRESS = 4, 0.8  # given up unless |e|² falls to this part of itself within so many steps
+_NEARLY = 1e-6  # |e|² from which on no attempt is given up: the last millimetre is bumpy where the arm is stretched out
 _LEAST_DAMPING = 1e-9  # keeps the equations solvable where the arm is singular
 
 
@@ -84,20 +86,30 @@ def damped_step(kinematics: Kinematics, Q: Array, targets: Array, damping: float
 
 
 def descend(kinematics: Kinematics, Q: Array, targets: Array, steps: int, damping: float = BOLD) -> tuple[Array, Array]:
-    """Step each configuration (N, dof) until it meets its target (N, 4, 4), or for so many steps.
+    """Step each configuration (N, dof) until it meets its target (N, 4, 4) or gets no closer, or for so many steps.
 
     Returns:
-        The configurations (N, dof), within the joint limits, and the `magnitudes` (N, 2) of their errors.
+        The closest configuration (N, dof) on the way of each, within the joint limits, and the `magnitudes` (N, 2) of
+        its error.
     """
     Q = np.clip(Q, kinematics.model.low, kinematics.model.high)
-    errors = np.full((len(Q), 2), np.inf)
-    unmet = np.arange(len(Q))
-    for left in reversed(range(steps)):
-        stepped, error = damped_step(kinematics, Q[unmet], targets[unmet], damping)
-        errors[unmet] = magnitudes(error)
-        missed = ~within_tolerance(errors[unmet])
-        unmet = unmet[missed]
-        if not left or not len(unmet):
+    live, every = np.arange(len(Q)), np.arange(len(Q))
+    way = np.empty((steps, *Q.shape))
+    errors = np.empty((steps, len(Q), 2))
+    sizes = np.full((steps, len(Q)), np.inf)  # |e|²
+    for step in range(steps):
+        way[step] = Q
+        stepped, error = damped_step(kinematics, Q[live], targets[live], damping)
+        lengths = magnitudes(error)
+        met = within_tolerance(lengths)
+        size = np.where(met, 0.0, (lengths**2).sum(axis=1))
+        errors[step, live], sizes[step, live] = lengths, size
+        promising = ~met
+        if step >= _PATIENCE:
+            promising &= (size < _PROGRESS * sizes[step - _PATIENCE, live]) | (size < _NEARLY)
+        live = live[promising]
+        if not len(live):
             break
-        Q[unmet] = stepped[missed]
-    return Q, errors
+        Q[live] = stepped[promising]
+    closest = sizes.argmin(axis=0)
+    return way[closest, every], errors[closest, every]

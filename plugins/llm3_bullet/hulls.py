@@ -6,6 +6,7 @@ from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
 
 from llm3_bullet.clients import BulletClient
 
@@ -38,6 +39,34 @@ def link_hull(client: BulletClient, body: int, link: int) -> Array:
             return _transformed(client, client.getDynamicsInfo(body, link)[3:5], vertices)
     corners = np.array(list(product(*zip(*client.getAABB(body, link), strict=True))))
     return _transformed(client, client.invertTransform(*_link_frame(client, body, link)), corners)
+
+
+def thickened(points: Array, thickness: float) -> Array:
+    """Points whose convex hull covers all that is no farther than a thickness from the convex hull of these points.
+
+    A corner moves outwards until it is beyond all faces that meet in it, shifted by the thickness. That is enough: a
+    unit vector u between these faces' normals n is a sum of λ n with Σ λ ≥ 1, so with n · d ≥ thickness for a move d,
+    u · d ≥ thickness too. Where the faces meet at so sharp an angle that the corner would move far, it becomes a cube.
+
+    Args:
+        points: (V, 3), not all in one plane, in metres.
+        thickness: In metres.
+
+    Returns:
+        (C, 3): one point for each corner of the hull, but for the sharpest.
+    """
+    hull = ConvexHull(points)
+    normals = hull.equations[:, :3]
+    outwards = np.zeros(points.shape)
+    np.add.at(outwards, hull.simplices, normals[:, None])
+    corners = hull.vertices
+    outwards[corners] /= np.linalg.norm(outwards[corners], axis=1, keepdims=True)
+    least = np.full(len(points), np.inf)  # cosine of the widest angle to the normal of a face
+    np.minimum.at(least, hull.simplices, np.einsum("fvi,fi->fv", outwards[hull.simplices], normals))
+    blunt, sharp = corners[least[corners] > 0.4], corners[least[corners] <= 0.4]
+    cube = np.array(list(product((-thickness, thickness), repeat=3)))
+    moved = points[blunt] + thickness * outwards[blunt] / least[blunt, None]
+    return np.concatenate([moved, (points[sharp, None] + cube).reshape(-1, 3)])
 
 
 def _link_frame(client: BulletClient, body: int, link: int) -> tuple[Array, Array]:

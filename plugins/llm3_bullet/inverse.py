@@ -1,20 +1,25 @@
-"""Inverse kinematics: configurations that put the tool into a given pose."""
+"""Inverse kinematics: configurations that put the tool into a given pose.
+
+A few starts whose tool poses are close already reach nearly every pose that can be reached. Where they do not, many
+more follow, and only when all of those have failed is the pose called unreachable. Where the arm is certainly too
+short, starts serve only to tell by how much.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from llm3_bullet.descent import BOLD, CAUTIOUS, descend, within_tolerance
+from llm3_bullet.arm_length import ArmLength
+from llm3_bullet.descent import BOLD, CAUTIOUS, POSITION_TOLERANCE, ROTATION_TOLERANCE, descend, within_tolerance
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.starts import StartTable
 
 Array = NDArray[np.float64]
 
-_FEW, _FEW_STEPS = 8, 9  # enough for nearly every pose that can be reached
-_MANY, _RANDOM, _MANY_STEPS = 64, 32, 25  # spent before a pose is called unreachable
 _DISTINCT = 0.1  # radians
 
 
@@ -39,19 +44,37 @@ class IKResult:
         return len(self.solutions) > 0
 
 
+@dataclass(frozen=True)
+class _Round:
+    """Starts, and how they are followed."""
+
+    neighbours: slice
+    """Which entries of the table, the closest to the target first."""
+    random: int
+    """How many random ones besides."""
+    steps: int
+    damping: float
+
+
+_FEW = _Round(slice(0, 8), random=0, steps=9, damping=BOLD)
+_MANY = _Round(slice(8, 72), random=32, steps=40, damping=CAUTIOUS)
+_CLOSEST = _Round(slice(0, 24), random=0, steps=25, damping=CAUTIOUS)
+
+
 class InverseKinematics:
     """Finds configurations for tool poses by damped least squares from many starts."""
 
     def __init__(self, kinematics: Kinematics) -> None:
         self._kinematics = kinematics
         self._table = StartTable(kinematics)
+        self._length = ArmLength(kinematics)
 
     def solve(self, target: Array, rng: np.random.Generator, near: Array | None = None) -> IKResult:
         """Find configurations that put the tool into a pose.
 
         Args:
             target: World pose of the tool, (4, 4).
-            rng: Draws further starts where the first ones fail; a pose is called unreachable only after those.
+            rng: Draws some of the further starts where the first ones fail.
             near: A configuration (dof,) from which to start as well; solutions come by their distance to it, the
                 closest first.
         """
@@ -59,35 +82,43 @@ class InverseKinematics:
 
     def solve_many(self, targets: Array, rng: np.random.Generator, near: Array | None = None) -> tuple[IKResult, ...]:
         """`solve` for several targets (B, 4, 4) at once, which costs less than one after another."""
-        model = self._kinematics.model
-        starts = self._table.nearest(targets, _FEW)
-        if near is not None:
-            starts = np.concatenate([np.broadcast_to(near, (len(targets), 1, model.dof)), starts], axis=1)
-        results = self._attempt(targets, starts, _FEW_STEPS, BOLD, near)
-        failed = [b for b, result in enumerate(results) if not result.reached]
-        if failed:
-            table = self._table.nearest(targets[failed], _FEW + _MANY)[:, _FEW:]
-            random = rng.uniform(model.low, model.high, (len(failed), _RANDOM, model.dof))
-            more = self._attempt(targets[failed], np.concatenate([table, random], axis=1), _MANY_STEPS, CAUTIOUS, near)
-            for b, result in zip(failed, more, strict=True):
-                results[b] = _better(results[b], result)
-        return tuple(results)
+        too_far = self._length.too_short(targets, POSITION_TOLERANCE, ROTATION_TOLERANCE)
+        results: dict[int, IKResult] = {}
+        for attempt, among in ((_FEW, ~too_far), (_MANY, ~too_far), (_CLOSEST, too_far)):
+            open_ = [b for b in np.flatnonzero(among).tolist() if b not in results or not results[b].reached]
+            if open_:
+                found = self._attempt(targets[open_], self._starts(targets[open_], attempt, rng, near), attempt, near)
+                results.update({b: _better(results.get(b), r) for b, r in zip(open_, found, strict=True)})
+        return tuple(results[b] for b in range(len(targets)))
 
-    def _attempt(self, targets: Array, starts: Array, steps: int, damping: float, near: Array | None) -> list[IKResult]:
-        """Descend from the starts (B, S, dof) of each target."""
+    def _starts(self, targets: Array, attempt: _Round, rng: np.random.Generator, near: Array | None) -> Array:
+        """Configurations to start from, (B, S, dof)."""
+        model, count = self._kinematics.model, len(targets)
+        starts = [self._table.nearest(targets, attempt.neighbours.stop)[:, attempt.neighbours]]
+        if near is not None:
+            starts.append(np.broadcast_to(near, (count, 1, model.dof)))
+        if attempt.random:
+            starts.append(rng.uniform(model.low, model.high, (count, attempt.random, model.dof)))
+        return np.concatenate(starts, axis=1)
+
+    def _attempt(self, targets: Array, starts: Array, attempt: _Round, near: Array | None) -> Iterator[IKResult]:
+        """Follow all starts (B, S, dof) at once."""
         count = starts.shape[1]
         Q, errors = descend(
-            self._kinematics, starts.reshape(-1, starts.shape[2]), np.repeat(targets, count, axis=0), steps, damping
+            self._kinematics,
+            starts.reshape(-1, starts.shape[2]),
+            np.repeat(targets, count, axis=0),
+            attempt.steps,
+            attempt.damping,
         )
-        return [
-            _result(q, error, near)
-            for q, error in zip(Q.reshape(starts.shape), errors.reshape(-1, count, 2), strict=True)
-        ]
+        for q, error in zip(Q.reshape(starts.shape), errors.reshape(-1, count, 2), strict=True):
+            yield _result(q, error, near)
 
 
 def _result(Q: Array, errors: Array, near: Array | None) -> IKResult:
-    best = int((errors**2).sum(axis=1).argmin())
-    solutions = Q[within_tolerance(errors)]
+    met = within_tolerance(errors)
+    best = int(np.where(met, 0.0, (errors**2).sum(axis=1)).argmin())
+    solutions = Q[met]
     if near is not None:
         solutions = solutions[np.argsort(np.linalg.norm(solutions - near, axis=1), kind="stable")]
     position, rotation = map(float, errors[best])
@@ -96,13 +127,16 @@ def _result(Q: Array, errors: Array, near: Array | None) -> IKResult:
 
 def _distinct(Q: Array) -> Array:
     """The configurations without those that resemble an earlier one."""
-    kept = np.empty((0, Q.shape[1]))
-    for q in Q:
-        if (np.linalg.norm(kept - q, axis=1) >= _DISTINCT).all():
-            kept = np.vstack([kept, q])
-    return kept
+    apart = np.linalg.norm(Q[:, None] - Q, axis=2) >= _DISTINCT
+    kept: list[int] = []
+    for k in range(len(Q)):
+        if apart[k, kept].all():
+            kept.append(k)
+    return Q[np.array(kept, dtype=np.intp)]
 
 
-def _better(first: IKResult, second: IKResult) -> IKResult:
+def _better(first: IKResult | None, second: IKResult) -> IKResult:
+    if first is None:
+        return second
     best = min(second, first, key=lambda r: (not r.reached, np.hypot(r.position_error, r.rotation_error)))
     return replace(best, starts=first.starts + second.starts)

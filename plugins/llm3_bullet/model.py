@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -69,17 +71,17 @@ class RobotModel:
         """The number of the arm's joints."""
         return len(self.low)
 
-    @property
+    @cached_property
     def tool(self) -> int:
         """The number of the link that carries the tool frame."""
         return self.link(self.description.tool_link)
 
-    @property
+    @cached_property
     def arm_joints(self) -> tuple[int, ...]:
         """PyBullet's numbers of the arm's joints, in the order of a configuration."""
         return tuple(self.joint(name) for name in self.description.arm_joints)
 
-    @property
+    @cached_property
     def finger_joints(self) -> tuple[int, ...]:
         """PyBullet's numbers of the finger joints."""
         return tuple(self.joint(name) for name in self.description.gripper.joints)

@@ -6,36 +6,37 @@ PyBullet's own collision step keeps them from one step to the next, and with the
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from llm3.errors import InputError
 from llm3.types import ITSELF, Contact
+from llm3_bullet.box_pool import BoxPool, Role
 from llm3_bullet.clients import BulletClient, quiet
 from llm3_bullet.model import RobotModel
 from llm3_bullet.mounting import urdf_file
 from llm3_bullet.robot import RobotDescription
+from llm3_bullet.robot_body import RobotBody
 from llm3_bullet.scene import Scene, Size
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass
 class Questions:
-    """What is left to ask PyBullet about one configuration."""
+    """What is left to ask PyBullet about one configuration.
 
-    boxes: Sequence[int]
-    """Numbers of boxes that the robot may touch."""
-    held_boxes: Sequence[int] = ()
-    """Numbers of boxes that the held box may touch."""
-    pairs: Sequence[tuple[int, int]] = ()
-    """Pairs of links, the one nearer to the base first, that may touch each other."""
-    held_links: Sequence[int] = ()
-    """Links that the held box may touch."""
+    A body that moves is the number of a link or, one more than the last, that of the held box.
+    """
+
+    boxes: list[tuple[int, int]] = field(default_factory=list)
+    """Boxes, by their number in the scene, and the bodies that may touch them."""
+    pairs: list[tuple[int, int]] = field(default_factory=list)
+    """Pairs of bodies, the one with the smaller number first, that may touch each other."""
 
 
 class Narrowphase:
@@ -49,90 +50,72 @@ class Narrowphase:
         """
         self._client = client
         self.robot = _load(client, model.description)
-        self._joints = [*model.arm_joints, *model.finger_joints]
+        self._body = RobotBody(client, self.robot, model)
         gripper = {model.link(name) for name in model.description.gripper.links}
         self._parts = ["gripper" if link in gripper else "arm" for link in range(len(model.links))]
-        self._mounted = {model.link(name) for name in model.description.mounted_links}
-        self._pool: dict[Size, list[int]] = defaultdict(list)
+        self._links = model.links
+        self._boxes = BoxPool(client, self._box)
         self._scene = Scene()
-        self._bodies: list[int] = []
-        self._held = -1
+        for link in range(len(model.links)):  # queries do not ask for it, and PyBullet's own step has less to do
+            client.setCollisionFilterGroupMask(self.robot, link - 1, 0, 0)
 
     def show(self, scene: Scene) -> None:
-        """Put the scene's boxes where they are, unless they are there already."""
-        if scene is self._scene or scene == self._scene:
+        """Put the scene's boxes where they are."""
+        if scene is not self._scene:
+            self._boxes.show(scene)
+            self._body.open(scene.opening)
             self._scene = scene
-            return
-        unused = {size: list(bodies) for size, bodies in self._pool.items()}
-        self._bodies = [self._take(box.size, unused) for box in scene.boxes]
-        for box, body in zip(scene.boxes, self._bodies, strict=True):
-            self._client.resetBasePositionAndOrientation(body, box.pose.position, box.pose.orientation)
-        self._held = self._take(scene.held.size, unused) if scene.held else -1
-        for bodies in unused.values():
-            for body in bodies:  # out of sight; nobody asks about them
-                self._client.resetBasePositionAndOrientation(body, (0.0, 0.0, -100.0), (0.0, 0.0, 0.0, 1.0))
-        self._scene = scene
 
-    def contacts(
-        self,
-        q: Array,
-        held: tuple[Array, Array] | None,
-        questions: Questions,
-        clearance: float,
-    ) -> Iterator[Contact]:
+    def contacts(self, q: Array, questions: Questions, clearance: float) -> Iterator[Contact]:
         """Everything closer than the clearance, one question after the other, each asked when it is its turn.
 
         Args:
             q: A configuration, (dof,).
-            held: World position and orientation (x, y, z, w) of the held box; None without one.
             questions: What to ask.
             clearance: In metres; negative to let things penetrate so far.
         """
-        scene = self._scene
-        self._place(q, scene.opening)
-        closest, horizon = self._client.getClosestPoints, max(clearance, 0.0)
-        for number in questions.boxes:
-            box = scene.boxes[number]
-            for row in closest(self.robot, self._bodies[number], horizon):
-                link = row[3] + 1
-                if row[8] < clearance and not (box.fixed and link in self._mounted):
-                    yield Contact(self._parts[link], box.name, -row[8], row[7], row[6])
+        scene, closest, horizon = self._scene, self._client.getClosestPoints, max(clearance, 0.0)
+        self._body.pose(q)
+        if scene.held and any(body == len(self._links) for _, body in (*questions.boxes, *questions.pairs)):
+            self._body.hold(self._boxes.held, scene.held.grasp)
+        for box, body in questions.boxes:
+            number, link = self._numbers(body)
+            for row in closest(number, self._boxes.bodies[box], horizon, link):
+                if row[8] < clearance:
+                    yield self._contact(row, body, scene.boxes[box].name)
         for a, b in questions.pairs:
-            for row in closest(self.robot, self.robot, horizon, b - 1, a - 1):
+            number, link = self._numbers(b)
+            for row in closest(number, self.robot, horizon, link, a - 1):
                 if row[8] < clearance:
-                    yield Contact(self._parts[b], ITSELF, -row[8], row[7], row[6])
-        if scene.held is None or held is None:
-            return
-        self._client.resetBasePositionAndOrientation(self._held, *held)
-        part = f"held {scene.held.name}"
-        for number in questions.held_boxes:
-            for row in closest(self._held, self._bodies[number], horizon):
-                if row[8] < clearance:
-                    yield Contact(part, scene.boxes[number].name, -row[8], row[7], row[6])
-        for link in questions.held_links:
-            for row in closest(self._held, self.robot, horizon, -1, link - 1):
-                if row[8] < clearance:
-                    yield Contact(part, ITSELF, -row[8], row[7], row[6])
+                    yield self._contact(row, b, ITSELF, self._links[a])
+
+    def _numbers(self, body: int) -> tuple[int, int]:
+        """PyBullet's numbers of the body and of its link."""
+        return (self.robot, body - 1) if body < len(self._links) else (self._boxes.held, -1)
+
+    def _contact(self, row: Sequence[Any], body: int, thing: str, other_link: str = "") -> Contact:
+        """A contact from PyBullet's closest points."""
+        if body < len(self._links):
+            part, link = self._parts[body], self._links[body]
+        else:
+            assert self._scene.held  # noqa: S101  # nobody asks about a held box where there is none
+            part, link = f"held {self._scene.held.name}", ""
+        return Contact(part, thing, -row[8], row[7], row[6], link=link, other_link=other_link)
 
     def link_distance(self, q: Array, pair: tuple[int, int], horizon: float = 0.3) -> float:
-        """Distance in metres between two links in a configuration (dof,); at least the horizon if it is beyond."""
+        """Distance in metres between two links in a configuration (dof,); at least the horizon if it is beyond.
+
+        The fingers are where they were last.
+        """
         a, b = pair
-        self._place(q, 0.0)
+        self._body.pose(q)
         rows = self._client.getClosestPoints(self.robot, self.robot, horizon, b - 1, a - 1)
         return min((float(row[8]) for row in rows), default=horizon)
 
-    def _place(self, q: Array, opening: float) -> None:
-        fingers = len(self._joints) - len(q)
-        positions = [[value] for value in q.tolist()] + [[opening / 2]] * fingers
-        self._client.resetJointStatesMultiDof(self.robot, self._joints, positions)
-
-    def _take(self, size: Size, unused: dict[Size, list[int]]) -> int:
-        """A body of this size that the scene does not use yet."""
-        if unused.get(size):
-            return unused[size].pop(0)
+    def _box(self, size: Size, _: Role) -> int:
         shape = self._client.createCollisionShape(self._client.GEOM_BOX, halfExtents=[side / 2 for side in size])
         body = int(self._client.createMultiBody(0.0, shape))
-        self._pool[size].append(body)
+        self._client.setCollisionFilterGroupMask(body, -1, 0, 0)
         return body
 
 

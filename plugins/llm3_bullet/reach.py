@@ -62,3 +62,12 @@ def reach(kinematics: Kinematics, points: Sequence[Array], opening: float) -> Ar
         # The origin of a sliding joint is where `home` has it, and it may be anywhere within its limits.
         beyond = far + (float(model.high[j] - model.low[j]) if slides else 0.0)
     return bound
+
+
+def extent(kinematics: Kinematics) -> float:
+    """How far the origin of a link can be from the base's, in metres, whatever the joints do: an upper bound."""
+    model = kinematics.model
+    origins = sum(float(np.linalg.norm(joint.origin[:3, 3])) for joint in model.joints)
+    slides = [joint.type == "prismatic" for joint in (model.joints[number] for number in model.arm_joints)]
+    sliding = np.maximum(np.abs(model.low), np.abs(model.high))[slides].sum()
+    return origins + float(sliding) + model.description.gripper.max_opening

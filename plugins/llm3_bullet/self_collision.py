@@ -16,6 +16,8 @@ Pair = tuple[int, int]
 """Two links by their numbers in the model, the smaller number first."""
 Distance = Callable[[Array, Pair], float]
 """The distance in metres between two links in a configuration (dof,), or a lower bound of it."""
+EDGE = 1e-6
+"""How far beyond a limit the tables still say something, in radians or metres."""
 
 
 def link_pairs(model: RobotModel, solid: Sequence[int]) -> tuple[Pair, ...]:
@@ -56,8 +58,8 @@ class NeighbourClearance:
         hulls: Sequence[Array],
         pairs: Sequence[Pair],
         distance: Distance,
-        cells: int = 64,
-        enough: float = 0.02,
+        cells: int = 256,
+        enough: float = 0.006,
     ) -> None:
         """Fill the grids.
 
@@ -73,31 +75,37 @@ class NeighbourClearance:
         below = joints_below(model)
         sliding = _moved_by_fingers(model)
         self.pairs = tuple((a, b) for a, b in pairs if 1 <= below[b] - below[a] <= 2 and not {a, b} & sliding)
-        self._low = model.low
-        self._widths = (model.high - model.low) / cells
+        # A hair wider than the limits, so that whatever counts as within them has a cell.
+        self._low = model.low - EDGE
+        self._widths = (model.high + EDGE - self._low) / cells
         self._cells = cells
-        self._first = np.array([below[a] for a, _ in self.pairs], dtype=np.intp)
-        self._second = np.array([below[b] - 1 for _, b in self.pairs], dtype=np.intp)
-        self._offsets = np.arange(len(self.pairs)) * cells * cells
-        tables = np.empty((len(self.pairs), cells, cells))
-        for table, pair, i, j in zip(tables, self.pairs, self._first, self._second, strict=True):
+        first = np.array([below[a] for a, _ in self.pairs], dtype=np.intp)
+        second = np.array([below[b] - 1 for _, b in self.pairs], dtype=np.intp)
+        tables = np.full((len(self.pairs), cells, cells), np.inf, dtype=np.float32)
+        for table, pair, i, j in zip(tables, self.pairs, first.tolist(), second.tolist(), strict=True):
             far = [hull if link == pair[1] else np.empty((0, 3)) for link, hull in enumerate(hulls)]
             speed = reach(kinematics, far, 0.0)[[i, j]] * self._widths[[i, j]]
             if i == j:
                 speed[1] = 0.0
-            self._fill(table, model.home, pair, (int(i), int(j)), speed, distance, enough)
+            self._fill(table, model.home, pair, (i, j), speed, distance, enough)
+        self.least = dict(zip(self.pairs, tables.min(axis=(1, 2)).tolist(), strict=True))
+        """A lower bound of each pair's distance in metres, whatever the joints do."""
         self._bounds = tables.ravel()
+        numbers = np.arange(len(self.pairs))
+        self._offsets = numbers * (cells * cells)
+        self._strides = np.zeros((model.dof, len(self.pairs)))
+        self._strides[first, numbers] += cells
+        self._strides[second, numbers] += 1
 
-    def bounds(self, Q: Array) -> Array:
+    def bounds(self, Q: Array) -> NDArray[np.float32]:
         """A lower bound of each pair's distance, (N, P) in metres, for configurations (N, dof) within the limits."""
-        cells = ((Q - self._low) / self._widths).astype(np.intp)
-        np.clip(cells, 0, self._cells - 1, out=cells)
-        found: Array = self._bounds[self._offsets + cells[:, self._first] * self._cells + cells[:, self._second]]
+        cells = np.floor((Q - self._low) / self._widths)
+        found: NDArray[np.float32] = self._bounds[(cells @ self._strides + self._offsets).astype(np.intp)]
         return found
 
     def _fill(
         self,
-        table: Array,
+        table: NDArray[np.float32],
         home: Array,
         pair: Pair,
         joints: tuple[int, int],
@@ -114,8 +122,9 @@ class NeighbourClearance:
             for joint, middle in zip(joints, ((i0 + i1) / 2, (j0 + j1) / 2), strict=True):
                 q[joint] = self._low[joint] + middle * self._widths[joint]
             slack = (i1 - i0) / 2 * speed[0] + (j1 - j0) / 2 * speed[1]
-            bound = distance(q, pair) - slack
-            if bound > enough or i1 - i0 == 1:
+            middle_distance = distance(q, pair)
+            bound = middle_distance - slack
+            if bound > enough or middle_distance + slack < 0 or i1 - i0 == 1:
                 table[i0:i1, j0:j1] = bound
                 continue
             i, j = (i0 + i1) // 2, (j0 + j1) // 2

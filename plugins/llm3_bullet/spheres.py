@@ -32,6 +32,24 @@ def cover(points: Array, slab: float) -> tuple[Array, Array]:
     return min(covers, key=lambda spheres: float(np.sum(spheres[1] ** 3)))
 
 
+def cover_box(size: tuple[float, float, float]) -> tuple[Array, float]:
+    """Cover a box, its centre at the origin, with equal spheres, one for each of its cells.
+
+    The cells are about as long as the shortest side, but at most three lie along any side.
+
+    Args:
+        size: Full side lengths x, y, z in metres.
+
+    Returns:
+        Centres (K, 3) and the radius.
+    """
+    counts = [min(3, math.ceil(side / min(size) - 0.5)) for side in size]
+    cell = np.array(size) / counts
+    axes = [(np.arange(count) - (count - 1) / 2) * side for count, side in zip(counts, cell, strict=True)]
+    centres = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    return centres, float(np.linalg.norm(cell)) / 2
+
+
 def enclosing_sphere(points: Array, steps: int = 40) -> tuple[Array, float]:
     """A small sphere, (centre (3,), radius), around points (V, 3): the optimum but for about 1 / `steps`.
 

@@ -1,4 +1,4 @@
-"""A robot with everything that plans for it, over two simulators of its own."""
+"""A robot with everything that plans for it, over three simulators of its own."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
 from llm3_bullet.robot import Gripper, RobotDescription
 from llm3_bullet.settle import Settler
-from llm3_bullet.touchdown import TouchdownPlanner
+from llm3_bullet.touchdown import TouchdownSettings
+from llm3_bullet.touchdown_planner import TouchdownPlanner
 
 
 class Workcell:
@@ -26,11 +27,11 @@ class Workcell:
         """
         self.model = RobotModel(description)
         self.kinematics = Kinematics(self.model)
-        self._clients = (connect(), connect())  # the robot among boxes, and boxes that fall
-        self.checker = CollisionChecker(self._clients[0], self.model, self.kinematics)
-        self.settler = Settler(self._clients[1])
+        self._clients = (connect(), connect(), connect())  # the robot among boxes, the same thicker, boxes that fall
+        self.checker = CollisionChecker(self._clients[0], self.model, self.kinematics, self._clients[1])
+        self.settler = Settler(self._clients[2])
         self.inverse = InverseKinematics(self.kinematics)
-        self.touchdowns = TouchdownPlanner(self.kinematics, self.inverse, self.checker)
+        self.touchdowns = TouchdownPlanner(self.kinematics, self.inverse, self.checker, TouchdownSettings())
 
     @property
     def gripper(self) -> Gripper:

@@ -53,7 +53,8 @@ class RandomBackend(LLMBackend):
         for sketch in self._skeleton:
             params: dict[str, float] = {}
             for parameter in schemas[sketch.name].parameters:
-                low, high = self._regions.get((sketch.name, parameter.name), (parameter.low, parameter.high))
+                key = (sketch.name, sketch.objects, parameter.name)
+                low, high = self._regions.get(key, (parameter.low, parameter.high))
                 drawn = round(float(rng.uniform(low, high)), DECIMALS)
                 params[parameter.name] = min(max(drawn, low), high)  # rounding may step over a bound
             plan.append(str(Action(sketch.name, sketch.objects, params)))

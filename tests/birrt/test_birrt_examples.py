@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from itertools import count
 
 import numpy as np
@@ -10,8 +11,10 @@ import pytest
 from llm3.errors import PluginError
 from llm3.interfaces import PlannerSettings
 from llm3.types import Contact, Failure, FailureKind, Goal, Mask, MotionProblem, Path, Vector
+from llm3.types.motion import Goals
 from llm3_birrt import plugin
-from llm3_birrt.free_space import FreeSpace
+from llm3_birrt.evidence import MAX_EXPLAINED
+from llm3_birrt.joint_space import JointSpace
 from llm3_birrt.planner import BiRRT
 
 LEFT, RIGHT = (0.2, 0.2), (0.8, 0.2)
@@ -77,6 +80,19 @@ def test_a_straight_way_to_a_lesser_goal_wins_over_a_search() -> None:
     assert path.goal_index == 1
 
 
+def test_goals_behind_one_with_a_straight_way_are_not_looked_at() -> None:
+    made = []
+
+    def goals():
+        for goal in (RIGHT, (0.2, 0.3)):
+            made.append(goal)
+            yield Goal(goal)
+
+    query = dataclasses.replace(problem(everywhere), goals=Goals(goals()))
+    assert isinstance(plan(query), Path)
+    assert made == [RIGHT]
+
+
 def test_a_goal_that_is_not_free_keeps_its_number() -> None:
     path = plan(problem(shut, (0.5, 0.5), (0.2, 0.8)))
     assert isinstance(path, Path)
@@ -120,20 +136,23 @@ def test_a_larger_budget_never_leaves_a_larger_gap(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(5))
 def test_every_sample_of_a_path_was_tested(seed: int) -> None:
-    tested: set[bytes] = set()
+    tested: set[tuple[float, ...]] = set()
     free = wall(0.6, 0.9)
 
+    def key(point: Vector) -> tuple[float, ...]:
+        return tuple(np.round(point, 9).tolist())
+
     def recording(points: Vector) -> Mask:
-        tested.update(point.tobytes() for point in points)
+        tested.update(map(key, points))
         return free(points)
 
     query = problem(recording, resolution=0.03)
     path = plan(query, seed)
     assert isinstance(path, Path)
     assert len(path.waypoints) > 2
-    remembered = FreeSpace(problem(lambda points: [p.tobytes() in tested for p in points], resolution=0.03))
+    remembered = JointSpace(problem(lambda points: [key(p) in tested for p in points], resolution=0.03))
     edges = zip(path.waypoints[:-1], path.waypoints[1:], strict=True)
-    assert all(remembered.edge(a, b) for a, b in edges)
+    assert all(remembered.obstacle(a, b) is None for a, b in edges)
 
 
 def test_a_thin_obstacle_on_a_long_edge_is_not_missed() -> None:
@@ -155,30 +174,81 @@ def test_a_start_in_collision_is_explained() -> None:
     assert failure.stats.planner_calls == 1
 
 
-def test_of_goals_in_collision_the_one_nearest_to_free_is_explained() -> None:
-    depths = {0.6: 0.05, 0.7: 0.01, 0.8: 0.02}
+def test_of_goals_in_collision_the_one_nearest_to_free_is_explained_and_what_blocks_most_of_them() -> None:
+    touched = {
+        0.6: {"wall": 0.05},
+        0.7: {"shelf": 0.01},
+        0.8: {"wall": 0.02, "shelf": 0.005, "lamp": 0.01},
+        0.9: {"wall": 0.02},
+    }
 
     def explain(point: Vector) -> tuple[Contact, ...]:
-        depth = depths.get(float(point[0]))
-        return () if depth is None else (Contact("point", f"at {point[0]}", depth),)
+        depths = touched.get(float(point[0]), {})
+        return tuple(Contact("point", name, depth) for name, depth in depths.items())
 
-    goals = [(0.9, 0.2), *((x, 0.2) for x in depths)]
+    goals = [(1.0, 0.2), *((x, 0.2) for x in touched)]
     failure = plan(problem(lambda points: points[:, 0] < 0.5, *goals, explain=explain))
     assert isinstance(failure, Failure)
     assert failure.kind is FailureKind.GOAL_IN_COLLISION
-    assert failure.objects == ("at 0.7",)
+    assert failure.configuration == (0.7, 0.2)
+    assert failure.contacts == (Contact("point", "shelf", 0.01),)
+    assert failure.objects == ("wall", "shelf", "lamp")
+    assert failure.measures == {"configurations": 5, "hit_share": 3 / 5}
 
 
 def test_a_failed_search_says_how_far_it_came() -> None:
     failure = plan(problem(shut), settings=PlannerSettings(max_iterations=100, max_seconds=np.inf))
     assert isinstance(failure, Failure)
     assert failure.kind is FailureKind.NO_PATH
-    assert set(failure.measures) == {"iterations", "start_tree", "goal_tree", "gap"}
+    assert set(failure.measures) == {"iterations", "start_tree", "goal_tree", "gap", "stops"}
     assert failure.measures["iterations"] == failure.stats.planner_iterations == 100
     assert failure.measures["start_tree"] > 1
     assert failure.measures["goal_tree"] > 1
     assert 0.1 <= failure.measures["gap"] <= 0.6  # the wall's width; from start to goal
     assert failure.stats.time_limited == 0
+
+
+def test_a_failed_search_names_what_stopped_it_the_most_frequent_first() -> None:
+    walls = {"low wall": lambda y: y < 0.7, "high wall": lambda y: y >= 0.7, "door": lambda y: y > 0.99}
+
+    def explain(point: Vector) -> tuple[Contact, ...]:
+        x, y = point
+        return tuple(Contact("point", name, 0.05 - abs(x - 0.5)) for name, part in walls.items() if part(y))
+
+    failure = plan(problem(shut, explain=explain), settings=PlannerSettings(max_iterations=200, max_seconds=np.inf))
+    assert isinstance(failure, Failure)
+    assert failure.objects == ("low wall", "high wall")  # the door is hit too seldom to be to blame
+    assert 0.5 < failure.measures["hit_share"] < 1.0
+
+
+def test_a_failed_search_tells_what_touches_where_it_came_nearest() -> None:
+    def explain(point: Vector) -> tuple[Contact, ...]:
+        return Contact("point", "wall", 0.01), Contact("tail", "wall", 0.02)
+
+    failure = plan(problem(shut, explain=explain), settings=PlannerSettings(max_iterations=50, max_seconds=np.inf))
+    assert isinstance(failure, Failure)
+    assert not shut(np.array([failure.configuration]))[0]
+    assert [contact.depth for contact in failure.contacts] == [0.02, 0.01]
+    assert failure.objects == ("wall",)
+    assert failure.measures["hit_share"] == 1.0
+
+
+def test_a_failed_search_explains_a_bounded_number_of_configurations() -> None:
+    explained = []
+    settings = PlannerSettings(max_iterations=500, max_seconds=np.inf)
+    failure = plan(problem(shut, explain=lambda q: explained.append(q) or ()), settings=settings)
+    assert isinstance(failure, Failure)
+    assert failure.measures["stops"] > MAX_EXPLAINED
+    assert len(explained) == MAX_EXPLAINED + 1
+    assert failure.objects == failure.contacts == ()
+
+
+def test_without_iterations_what_blocks_the_straight_way_is_told() -> None:
+    failure = plan(problem(shut, explain=lambda _: (Contact("point", "wall"),)), settings=PlannerSettings(0))
+    assert isinstance(failure, Failure)
+    assert failure.objects == ("wall",)
+    assert not shut(np.array([failure.configuration]))[0]
+    assert failure.measures["stops"] == 1
 
 
 def test_without_iterations_the_gap_is_the_distance_to_the_nearest_goal() -> None:
@@ -226,7 +296,7 @@ def test_the_clock_ends_the_smoothing_but_the_path_stands() -> None:
         ({"resolution": 0.0}, "the resolution must be positive in every joint, not [0.0, 0.0]."),
         (
             {"valid": lambda points: np.ones((len(points), 2))},
-            "the validity test must answer 2 configurations with shape (2,), not (2, 2).",
+            "the validity test must answer 1 configurations with shape (1,), not (1, 2).",
         ),
     ],
 )

@@ -65,7 +65,7 @@ def sampled(path: Path, finer: int) -> Vector:
     """Points along the path, `finer` times closer than the resolution demands."""
     pieces = []
     for a, b in zip(path.waypoints[:-1], path.waypoints[1:], strict=True):
-        steps = max(1, int(np.ceil(np.abs(b - a).sum() / RESOLUTION))) * finer
+        steps = max(1, int(np.ceil(np.abs(b - a).sum() / RESOLUTION - 1e-6))) * finer
         pieces.append(a + (b - a) * np.linspace(0.0, 1.0, steps + 1)[:, None])
     return np.vstack(pieces)
 
@@ -174,15 +174,44 @@ def test_failures_are_what_they_are_called(problem) -> None:
         assert goals_free[answer.goal_index]
 
 
-@given(problems)
+@given(points, st.lists(points, min_size=1, max_size=4), disc_lists, st.booleans())
 @QUICK
-def test_collisions_name_what_is_touched_the_deepest_first(problem) -> None:
+def test_collisions_name_what_is_touched_the_deepest_first(start, goals, discs, at_start) -> None:
+    in_the_way = [(x, y, 0.1) for x, y in ([start] if at_start else goals)]
+    problem = problem_of(start, goals, [*discs, *in_the_way])
     answer = plan(problem, iterations=0)
-    assume(isinstance(answer, Failure) and answer.kind is not FailureKind.NO_PATH)
+    assert isinstance(answer, Failure)
     depths = [contact.depth for contact in answer.contacts]
     assert depths
     assert depths == sorted(depths, reverse=True)
-    assert answer.objects == tuple(contact.object for contact in answer.contacts)
+    assert set(answer.objects) >= {contact.object for contact in answer.contacts}
+    of_each = [{c.object for c in problem.explain(q)} for q in _blamed(problem, answer.kind)]
+    shares = [sum(name in touched for touched in of_each) / len(of_each) for name in answer.objects]
+    assert shares == sorted(shares, reverse=True)
+    assert answer.measures == {"configurations": len(of_each), "hit_share": shares[0]}
+
+
+def _blamed(problem: MotionProblem, kind: FailureKind) -> list[Vector]:
+    if kind is FailureKind.START_IN_COLLISION:
+        return [problem.start]
+    return [np.array(goal.configuration) for goal in problem.goals]
+
+
+@given(st.floats(0.0, 0.25), coordinates, coordinates, st.integers(0, 9), st.integers(0, 50))
+@QUICK
+def test_a_failed_search_tells_a_configuration_that_is_blocked_and_by_what(x, y, other, seed, iterations) -> None:
+    wall = [(0.5, y, 0.15) for y in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    problem = problem_of((x, y), [(1.0 - x, other)], wall)
+    failure = plan(problem, seed, iterations)
+    assert isinstance(failure, Failure)
+    assert failure.kind is FailureKind.NO_PATH
+    assert not problem.valid(np.array([failure.configuration]))[0]
+    assert {contact.object for contact in failure.contacts} == {
+        contact.object for contact in problem.explain(np.array(failure.configuration))
+    }
+    assert set(failure.objects) <= {f"disc {i}" for i in range(len(wall))}
+    assert failure.objects
+    assert 0.2 <= failure.measures["hit_share"] <= 1.0  # of five discs, one is hit so often
 
 
 @pytest.mark.parametrize("seed", range(3))

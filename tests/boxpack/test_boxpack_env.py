@@ -30,9 +30,9 @@ def plain(answer: MotionProblem | Failure) -> Any:
         return answer, answer.stats
     samples = np.random.default_rng(5).uniform(answer.low, answer.high, (64, len(answer.low)))
     return (
-        answer.goals,
+        tuple(answer.goals),
         answer.before,
-        answer.stats,
+        answer.cost,
         *(a.tobytes() for a in (answer.start, answer.low, answer.high, answer.resolution)),
         answer.valid(samples).tobytes(),
         answer.explain(samples[0]),

@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from packing_world import BAR, POST, box, carried_out, pick, place, prepared, problem
-from recheck import STRAIGHT_STEP, TRANSIT_STEP
 
 from llm3.types import EventKind, Motion, State
 from llm3.types.state import LENGTH_DECIMALS
@@ -157,10 +156,3 @@ def test_the_goals_are_a_few_and_each_is_above_the_spot(workcell, env, steps):
             low, high = goal.then[0].waypoints[-1], goal.configuration
             heights = workcell.kinematics.tool(np.array([low, high]))[:, 2, 3]
             assert heights[1] - heights[0] == pytest.approx(TouchdownSettings().height, abs=0.001)
-
-
-def test_the_second_opinion_is_no_coarser_than_it_says(env, steps):
-    """The re-check is to be four times finer than the planner: its own steps must not exceed the planner's."""
-    for number, (before, _, _) in enumerate(steps):
-        assert prepared(env, before, ACTIONS[number]).resolution.min() >= TRANSIT_STEP
-    assert TouchdownSettings().step >= STRAIGHT_STEP

@@ -5,6 +5,8 @@ import sys
 from itertools import combinations, product
 
 import pytest
+from packing_world import box as box_spec
+from packing_world import problem
 
 from llm3.jsonio import dumps, loads, pretty
 from llm3_boxpack.domain import BoxPack
@@ -104,8 +106,16 @@ def test_the_skeleton_picks_and_places_every_box_in_turn(domain: BoxPack):
     ]
 
 
-def test_the_region_for_sampling_is_the_inside_of_the_basket(domain: BoxPack):
-    regions = domain.regions(domain.instance("hard-large", 0))
-    assert regions[("place", "x")] == pytest.approx((0.54, 0.96))
-    assert regions[("place", "y")] == pytest.approx((-0.105, 0.105))
-    assert set(regions) == {("place", "x"), ("place", "y")}
+def test_the_regions_for_sampling_are_where_a_box_can_lie_in_the_basket(domain: BoxPack):
+    instance = domain.instance("hard-large", 0)
+    regions = domain.regions(instance)
+    assert regions[("place", ("blue_box",), "x")] == pytest.approx((0.575, 0.925))  # 70 mm wide
+    assert regions[("place", ("blue_box",), "y")] == pytest.approx((-0.07, 0.07))
+    assert regions[("place", ("green_box",), "x")] == pytest.approx((0.5575, 0.9425))  # 35 mm the narrow way
+    assert set(regions) == {("place", (box.name,), axis) for box in instance.boxes for axis in "xy"}
+
+
+def test_a_box_that_fits_no_basket_has_its_middle_as_region(domain: BoxPack):
+    instance = problem(box_spec("red_box", 0.0, 0.5, (0.3, 0.4, 0.1)))
+    region = domain.regions(instance)[("place", ("red_box",), "y")]
+    assert region == (instance.basket.center[1],) * 2

@@ -7,12 +7,12 @@ from llm3_bullet.clients import connect
 from llm3_bullet.collision import CollisionChecker
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
-from llm3_bullet.robots import panda
+from llm3_bullet.robots import iiwa, panda
 
 
 @pytest.fixture(scope="session")
 def descriptions(tmp_path_factory):
-    return {"panda": panda(), "toy": toy_arm(tmp_path_factory.mktemp("toy"))}
+    return {"panda": panda(), "iiwa": iiwa(), "toy": toy_arm(tmp_path_factory.mktemp("toy"))}
 
 
 @pytest.fixture(scope="session")

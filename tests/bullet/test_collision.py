@@ -12,7 +12,7 @@ from random_worlds import random_configurations, random_scene
 from llm3_bullet.clients import connect
 from llm3_bullet.collision import CollisionChecker
 
-ROBOTS = ("panda", "toy")
+ROBOTS = ("panda", "iiwa", "toy")
 CLEARANCES = (0.0, 0.005, -0.0005)
 """In metres; a negative one lets things penetrate a little."""
 seeds = st.integers(0, 2**32 - 1)
@@ -68,10 +68,10 @@ def test_a_verdict_depends_on_no_other_configuration_and_no_other_scene(checkers
     Q = random_configurations(checker.kinematics, 60, rng)
     together = [view.valid(Q, 0.002) for view in views]
     order = rng.permutation(len(Q))
-    for start in range(0, len(order), 7):
-        chosen = order[start : start + 7]
-        for view, expected in zip(views, together, strict=True):
-            assert (view.valid(Q[chosen], 0.002) == expected[chosen]).all()
+    for size in (1, 2, 7):
+        for chosen in np.array_split(order, range(size, len(order), size)):
+            for view, expected in zip(views, together, strict=True):
+                assert (view.valid(Q[chosen], 0.002) == expected[chosen]).all()
 
 
 @settings(max_examples=15, deadline=None)
@@ -101,7 +101,7 @@ def test_within_the_limits_a_configuration_is_invalid_if_and_only_if_there_is_a_
         assert [c.depth for c in contacts] == sorted((c.depth for c in contacts), reverse=True)
         assert all(c.depth > -clearance for c in contacts)
         assert all(np.linalg.norm(c.normal) == pytest.approx(1.0) for c in contacts)
-        assert len({(c.part, c.object) for c in contacts}) == len(contacts)
+        assert len({(c.part, c.link, c.object, c.other_link) for c in contacts}) == len(contacts)
 
 
 @settings(max_examples=15, deadline=None)

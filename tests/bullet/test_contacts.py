@@ -49,13 +49,15 @@ def test_a_contact_names_the_part_of_the_robot_and_the_box(checker, home, link, 
     assert (contacts[0].part, contacts[0].object) == (part, "red")
     assert {contact.object for contact in contacts} == {"red"}
     assert contacts[0].depth > 0
+    assert all(contact.link.startswith("panda_") for contact in contacts)
     assert not checker.view(scene).valid(home[None])[0]
 
 
 def test_a_finger_is_part_of_the_gripper(checker, home, tool):
     scene = Scene((Box("red", (0.01, 0.3, 0.01), Pose(tuple(tool))),), opening=0.08)
-    (contact,) = checker.view(scene).contacts(home)
-    assert (contact.part, contact.object) == ("gripper", "red")
+    contacts = checker.view(scene).contacts(home)
+    assert {(contact.part, contact.object) for contact in contacts} == {("gripper", "red")}
+    assert {contact.link for contact in contacts} == {"panda_leftfinger", "panda_rightfinger"}
 
 
 def test_the_opening_of_the_gripper_counts(checker, home, tool):
@@ -101,7 +103,7 @@ def test_a_link_s_depth_grows_as_the_box_comes_up(checkers, lift):
 
     def depth(top: float) -> float:
         plate = Box("plate", (0.3, 0.3, 0.02), Pose((tool[0], tool[1], top - 0.01)))
-        (contact,) = checker.view(Scene((plate,), None, 0.08)).contacts(home, clearance=0.01)
+        contact = checker.view(Scene((plate,), None, 0.08)).contacts(home, clearance=0.01)[0]
         np.testing.assert_allclose(contact.normal, (0, 0, 1), atol=0.02)
         return contact.depth
 
@@ -124,14 +126,31 @@ def test_a_robot_can_touch_itself(checker, home):
     folded[5] = 0.0  # the hand turned back along the forearm
     folded[6] = 0.0
     contacts = checker.view(Scene(opening=0.08)).contacts(folded)
-    assert ("gripper", "itself") in {(contact.part, contact.object) for contact in contacts}
+    assert ("gripper", "panda_hand", "itself", "panda_link5") in {
+        (c.part, c.link, c.object, c.other_link) for c in contacts
+    }
 
 
 def test_a_held_box_can_touch_the_arm(checker, home):
     pole = HeldBox("pole", (0.02, 0.02, 1.5), Pose((0.0, 0.0, 0.0), (0.0, np.sin(-0.6), 0.0, np.cos(-0.6))))
-    assert ("held pole", "itself") in {
-        (contact.part, contact.object) for contact in checker.view(Scene((), pole, 0.02)).contacts(home)
-    }
+    contacts = checker.view(Scene((), pole, 0.02)).contacts(home)
+    assert {(c.part, c.link, c.object) for c in contacts} == {("held pole", "", "itself")}
+    assert "panda_link1" in {c.other_link for c in contacts}
+
+
+def test_every_box_that_a_link_touches_is_named_with_the_link(checker, home, tool):
+    """Two boxes in the hand's way and one beside the elbow: a contact for each link and box that touch."""
+    elbow = link_place(checker, "panda_link4")
+    aside = np.array([0.0, 0.04, 0.0])
+    boxes = (cube("one", tool + aside), cube("another", tool - aside), cube("far", elbow))
+    contacts = checker.view(Scene(boxes, None, 0.08)).contacts(home)
+    touched = {(contact.link, contact.object) for contact in contacts}
+    assert len(touched) == len(contacts)
+    fingers = {contact.object: contact.link for contact in contacts if "finger" in contact.link}
+    assert sorted(fingers) == ["another", "one"]
+    assert sorted(fingers.values()) == ["panda_leftfinger", "panda_rightfinger"]
+    assert "far" in {name for _, name in touched}
+    assert {contact.part for contact in contacts if contact.object == "far"} == {"arm"}
 
 
 def test_a_held_box_may_touch_the_gripper(checker, home):
@@ -150,13 +169,31 @@ def test_the_base_may_stand_on_what_is_fixed_and_on_nothing_else(checker, home):
 
 def test_boxes_are_loaded_once_however_many_scenes_are_looked_at(checkers, home):
     kinematics = checkers["panda"].kinematics
-    with connect() as client:
-        checker = CollisionChecker(client, kinematics.model, kinematics)
+    with connect() as client, connect() as step_client:
+        checker = CollisionChecker(client, kinematics.model, kinematics, step_client)
         held = HeldBox("c", CUBE, Pose((0.0, 0.0, 0.0)))
         scenes = [
             Scene((cube("a", (0.5, 0.1 * i, 0.1)), cube("b", (0.7, 0.0, 0.1))), held if i % 2 else None)
             for i in range(6)
         ]
         for scene in scenes * 3:
-            checker.view(scene).contacts(home)
-        assert client.getNumBodies() == 1 + 3  # the robot and, at most, three cubes at a time
+            checker.view(scene).valid(home[None], coarse=False)
+            checker.view(scene).valid(home[None])
+        for world in (client, step_client):
+            assert world.getNumBodies() == 1 + 3  # the robot and, at most, three cubes at a time
+
+
+@pytest.mark.parametrize("clearance", [-0.0005, 0.0, 0.005])
+def test_every_contact_is_told_also_where_coarse_tests_go_first(checkers, clearance):
+    """Against PyBullet alone: the same questions, all of them asked."""
+    checker, rng = checkers["panda"], np.random.default_rng(3)
+    model = checker.kinematics.model
+    boxes = tuple(cube(f"box{i}", tuple(rng.uniform((-0.5, -0.5, 0.0), (0.5, 0.5, 0.6)))) for i in range(6))
+    view = checker.view(Scene(boxes, None, 0.04))
+    told = 0
+    for q in rng.uniform(model.low, model.high, (150, model.dof)):
+        contacts = view.contacts(q, clearance)
+        assert bool(contacts) == (not view.valid(q[None], clearance, coarse=False)[0])
+        assert [c.depth for c in contacts] == sorted((c.depth for c in contacts), reverse=True)
+        told += len(contacts)
+    assert told > 50

@@ -5,11 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
 from toy_arm import URDF, toy_arm
 
 from llm3.errors import InputError
 from llm3_bullet.clients import connect
-from llm3_bullet.hulls import MARGIN, link_hull
+from llm3_bullet.hulls import MARGIN, link_hull, thickened
 from llm3_bullet.model import RobotModel
 from llm3_bullet.narrowphase import Narrowphase
 
@@ -80,3 +83,29 @@ def test_a_missing_mesh_is_one_line(tmp_path):
         f"PyBullet cannot load the robot file {description.urdf}: a shape in it, or a mesh file that it names, is "
         f"missing or broken."
     )
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=st.integers(0, 2**32), count=st.integers(5, 60), thickness=st.floats(0.001, 0.05))
+def test_what_is_thickened_covers_all_within_the_thickness(seed, count, thickness):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(count, 3)) * rng.uniform(0.02, 0.3, 3)
+    faces = ConvexHull(thickened(points, thickness)).equations
+    inside = rng.dirichlet(np.full(count, 0.1), 300) @ points
+    directions = rng.normal(size=(300, 3))
+    directions /= np.linalg.norm(directions, axis=1, keepdims=True)
+    for reached in (points[:, None] + thickness * directions, inside + thickness * directions):
+        assert (reached.reshape(-1, 3) @ faces[:, :3].T + faces[:, 3] <= 1e-9).all()
+
+
+def test_a_thickened_box_is_a_larger_box():
+    points = np.array(list(product((0.0, 0.1), (0.0, 0.2), (0.0, 0.3))))
+    thicker = thickened(points, 0.01)
+    assert len(thicker) == 8
+    middle = points.mean(axis=0)
+    assert np.abs(thicker - middle).max(axis=0) == pytest.approx(np.array([0.05, 0.1, 0.15]) + 0.01, abs=0.01)
+
+
+def test_a_sharp_corner_does_not_run_away():
+    needle = np.array([[0, 0, 1.0], [0.01, 0, 0], [-0.01, 0.01, 0], [-0.01, -0.01, 0]])
+    assert thickened(needle, 0.01)[:, 2].max() <= 1.01 + 1e-12

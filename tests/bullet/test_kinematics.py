@@ -84,17 +84,27 @@ def test_the_tool_is_the_tool_links_frame_at_any_opening(arms, name, seed):
         np.testing.assert_allclose(arm.tool(Q), arm.link_frames(Q, opening)[:, arm.model.tool], atol=1e-12)
 
 
+@given(robots, seeds, st.integers(1, 12), openings)
+@QUICK
+def test_points_are_placed_in_one_product(arms, name, seed, count, opening):
+    arm, Q, rng = arms[name], configurations(arms[name], seed, count), np.random.default_rng(seed)
+    links = rng.integers(0, len(arm.model.links), 6)
+    points = rng.normal(size=(6, 3))
+    placed = arm.joint_frames(Q).reshape(count, 4, -1) @ arm.placement(links, points, opening)
+    frames = arm.link_frames(Q, opening)[:, links]
+    expected = np.einsum("nsij,sj->nsi", frames[..., :3, :3], points) + frames[..., :3, 3]
+    np.testing.assert_allclose(placed[:, :3].swapaxes(1, 2), expected, atol=1e-12)
+    np.testing.assert_array_equal(placed[:, 3], 1.0)
+
+
 @given(robots, seeds, openings)
 @QUICK
-def test_columns_are_frames_in_another_order(arms, name, seed, opening):
-    arm, Q = arms[name], configurations(arms[name], seed, 4)
-    columns = arm.link_columns(Q, opening)
-    np.testing.assert_array_equal(columns.transpose(3, 0, 2, 1), arm.link_frames(Q, opening)[:, :, :3])
-    points = np.array([[0.1, 0.2, 0.3], [0.0, -0.1, 0.0]])
-    placed = (np.column_stack([points, np.ones(2)]) @ columns[-1].reshape(4, -1)).reshape(2, 3, -1)
-    frames = arm.link_frames(Q, opening)[:, -1]
-    expected = points @ frames[:, :3, :3].swapaxes(1, 2) + frames[:, None, :3, 3]
-    np.testing.assert_allclose(placed.transpose(2, 0, 1), expected, atol=1e-12)
+def test_single_precision_is_right_to_a_micrometre(arms, name, seed, opening):
+    arm, Q = arms[name], configurations(arms[name], seed, 3)
+    single = Kinematics(arm.model, np.float32)
+    frames = single.link_frames(Q, opening)
+    assert frames.dtype == np.float32
+    np.testing.assert_allclose(frames, arm.link_frames(Q, opening), atol=2e-6)
 
 
 @given(robots, seeds)

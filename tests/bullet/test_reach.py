@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from random_worlds import random_configurations
 
 from llm3.types import Pose
-from llm3_bullet.reach import joints_below
+from llm3_bullet.reach import extent, joints_below
 from llm3_bullet.scene import HeldBox, Scene
 
-ROBOTS = ("panda", "toy")
+ROBOTS = ("panda", "iiwa", "toy")
 CARGO = HeldBox("cargo", (0.1, 0.03, 0.2), Pose((0.01, 0.0, 0.05)))
 
 
@@ -83,3 +83,13 @@ def test_a_link_moves_with_the_joints_below_it_and_no_other(checkers):
             q[joint] += 0.1
             moved = np.abs(checker.kinematics.link_frames(q[None], 0.0)[0] - base).max(axis=(1, 2)) > 1e-9
             assert (moved == (below > joint)).all()
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), robot=st.sampled_from(ROBOTS), opening=st.floats(0.0, 1.0))
+def test_no_link_is_farther_from_the_base_than_the_extent(checkers, seed, robot, opening):
+    kinematics = checkers[robot].kinematics
+    model = kinematics.model
+    Q = random_configurations(kinematics, 50, np.random.default_rng(seed))
+    frames = kinematics.link_frames(Q, opening * model.description.gripper.max_opening)
+    assert np.linalg.norm(frames[..., :3, 3], axis=-1).max() <= extent(kinematics)

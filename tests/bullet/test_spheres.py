@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from llm3_bullet.spheres import cover, enclosing_sphere
+from llm3_bullet.spheres import cover, cover_box, enclosing_sphere
 
 
 @settings(max_examples=50, deadline=None)
@@ -35,3 +35,19 @@ def test_thinner_slabs_give_smaller_spheres():
     assert len(radii) == 8
     np.testing.assert_allclose(radii, np.sqrt(0.01**2 + 0.01**2 + 0.025**2), rtol=0.05)
     np.testing.assert_allclose(sorted(centres[:, 2]), np.arange(0.025, 0.4, 0.05), atol=0.003)
+
+
+@settings(max_examples=50, deadline=None)
+@given(seed=st.integers(0, 2**32), sides=st.tuples(*[st.floats(0.005, 0.5)] * 3))
+def test_every_point_of_a_box_is_in_a_sphere(seed, sides):
+    centres, radius = cover_box(sides)
+    assert len(centres) <= 27
+    points = (np.random.default_rng(seed).uniform(-0.5, 0.5, (500, 3)).round(1)) * sides  # faces and edges, too
+    distances = np.linalg.norm(points[:, None] - centres, axis=2)
+    assert (distances.min(axis=1) <= radius + 1e-9).all()
+
+
+def test_a_cube_needs_one_sphere_and_a_bar_three():
+    assert len(cover_box((0.07, 0.07, 0.07))[0]) == 1
+    assert len(cover_box((0.105, 0.035, 0.035))[0]) == 3
+    assert len(cover_box((0.22, 0.21, 0.01))[0]) == 9

@@ -247,7 +247,7 @@ class FullLineDomain(LineDomain):
         return (Sketch("go"), Sketch("take", ("coin",)), Sketch("go"))
 
     def regions(self, instance):
-        return {("go", "x"): (8.5, 9.5)}
+        return {("go", (), "x"): (8.5, 9.5)}
 
     def stand_in(self):
         return lambda context, rng: reply(go(FINISH))

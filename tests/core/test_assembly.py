@@ -39,6 +39,7 @@ def test_the_defaults_are_the_papers_and_need_no_network():
         planner="birrt",
         planner_iterations=2000,
         planner_seconds=30.0,
+        timing=None,
         max_llm_calls=20,
         trace_size=5,
         options={},
@@ -139,7 +140,7 @@ def test_a_window_needs_a_domain_that_has_one():
 
 def test_a_run_is_assembled_and_solved():
     with assemble(line_registry(), config()) as run:
-        assert run.config == config(setting="far", llm="offline")
+        assert run.config == config(setting="far", llm="offline", timing="none")
         assert run.problem.instance == LineInstance(0.0)
         assert run.skeleton == ()
         result = run.solve()
@@ -209,7 +210,7 @@ def test_a_backend_is_told_what_the_user_asked_for_and_what_the_domain_offers():
     full, bare = told
     assert (full.domain, full.argument, full.model, full.temperature) == ("full-line", "a:b", None, 0.5)
     assert full.skeleton == FullLineDomain().skeleton(None)
-    assert full.regions == {("go", "x"): (8.5, 9.5)}
+    assert full.regions == {("go", (), "x"): (8.5, 9.5)}
     assert full.stand_in is not None
     assert (bare.argument, bare.model, bare.temperature) == (None, "m", None)
     assert (bare.skeleton, bare.regions, bare.stand_in) == ((), {}, None)

@@ -97,6 +97,7 @@ def test_a_solved_run(tmp_path):
         "planner": "birrt",
         "planner_iterations": 2000,
         "planner_seconds": 30.0,
+        "timing": None,
         "max_llm_calls": 3,
         "trace_size": 5,
         "options": {"ground": "wet"},
@@ -104,7 +105,7 @@ def test_a_solved_run(tmp_path):
     assert found["instance"] == {"start": 0.0}
     assert found["language_model"] is False
     assert found["notice"] == "No language model is used: the replies come from a script."
-    assert set(found["versions"]) == {"python", "platform", "llm3", "numpy", "scipy", "pybullet"}
+    assert set(found["versions"]) == {"python", "platform", "llm3", "numpy", "scipy", "pybullet", "ompl", "toppra"}
     assert (found["stats"]["llm_calls"], found["stats"]["motion_calls"]) == (3, 3)
     assert (found["unmet"], found["error"], found["time_limited"]) == ([], "", False)
     assert found["seconds"] > 0
@@ -235,7 +236,7 @@ def test_a_plan_holds_all_that_is_needed_to_check_it_again(tmp_path):
     assert list(plan) == ["format", "domain", "instance", "options", "joints", "start", "actions"]
     assert (plan["format"], plan["domain"], plan["instance"]) == ("llm3-plan/1", "full-line", {"start": 0.0})
     assert plan["options"] == {"ground": "wet", "colour": "red"}
-    assert plan["joints"] == [{"name": "wheel", "unit": "m"}]
+    assert plan["joints"] == [{"name": "wheel", "unit": "m", "max_velocity": None, "max_acceleration": None}]
     assert plan["start"]["configuration"] == [0.0]
     assert [step["action"]["name"] for step in plan["actions"]] == ["go", "take", "go"]
     roll, lock = plan["actions"][2]["motion"]["segments"]

@@ -11,7 +11,7 @@ from llm3.errors import PluginError, UnknownName
 from llm3.interfaces import BackendSettings
 from llm3.registry import HOOKS, BrokenPlugin
 
-ALL_HOOKS = "llm3_backends, llm3_domains, llm3_feedback, llm3_planners, llm3_strategies"
+ALL_HOOKS = "llm3_backends, llm3_domains, llm3_feedback, llm3_planners, llm3_strategies, llm3_timers"
 
 BRINGS_A_DOMAIN = """
 from llm3 import hookimpl
@@ -86,7 +86,7 @@ def test_names_are_sorted_and_come_with_who_brought_them():
     assert [(r.kind, r.name, r.plugin) for r in registry.registrations("planner")] == [
         ("planner", "birrt", "line (test)")
     ]
-    assert set(HOOKS) == {"domain", "strategy", "feedback", "planner", "backend"}
+    assert set(HOOKS) == {"domain", "strategy", "feedback", "planner", "timer", "backend"}
 
 
 def test_every_hook_is_documented_and_brings_a_kind():
@@ -351,7 +351,8 @@ def test_what_ships_is_found_and_whole():
         "domain": {"boxpack"},
         "strategy": {"backtrack", "scratch", "sample-params"},
         "feedback": {"categorized", "binary", "none"},
-        "planner": {"birrt"},
+        "planner": {"birrt", "ompl-bitstar", "ompl-lbkpiece", "ompl-rrtconnect"},
+        "timer": {"toppra"},
         "backend": {"offline", "random", "scripted", "http"},
     }
     assert all(isinstance(registry.strategy(name), Strategy) for name in shipped["strategy"])

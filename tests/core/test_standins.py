@@ -51,7 +51,7 @@ def test_random_fills_in_the_skeleton_within_the_ranges(seed):
 @given(st.integers(0, 2**64 - 1), st.tuples(st.floats(0, 10), st.floats(0, 10)).map(sorted))
 def test_random_stays_in_the_region_where_the_domain_has_one(seed, region):
     low, high = region
-    plan = drawn(seed, replace(SETTINGS, regions={("go", "x"): (low, high)}))
+    plan = drawn(seed, replace(SETTINGS, regions={("go", (), "x"): (low, high)}))
     assert all(low <= plan[i].params["x"] <= high for i in (0, 2))
 
 

@@ -1,0 +1,60 @@
+"""Goals are made when they are looked at, once, and count from the first."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from llm3.types import Goal, Goals, Stats
+
+numbers = st.lists(st.floats(-3, 3), min_size=1, max_size=6)
+
+
+class Workshop:
+    """Makes goals, and counts them."""
+
+    def __init__(self, values):
+        self.values, self.made = values, 0
+
+    def goals(self):
+        for value in self.values:
+            self.made += 1
+            yield Goal((value,))
+
+    def cost(self):
+        return Stats(ik_calls=self.made)
+
+
+@given(values=numbers, data=st.data())
+def test_looking_at_a_goal_makes_it_and_those_before_it(values, data):
+    workshop = Workshop(values)
+    goals = Goals(workshop.goals(), workshop.cost)
+    assert workshop.made == 1
+    index = data.draw(st.integers(0, len(values) - 1))
+    assert goals[index] == Goal((values[index],))
+    assert goals.stats == Stats(ik_calls=index + 1)
+
+
+@given(values=numbers)
+def test_they_are_the_sequence_that_was_given(values):
+    workshop = Workshop(values)
+    goals, plain = Goals(workshop.goals()), [Goal((value,)) for value in values]
+    assert list(goals) == list(goals) == plain
+    assert len(goals) == len(plain)
+    assert goals[-1] == plain[-1]
+    assert list(goals[1:]) == plain[1:]
+    assert workshop.made == len(values)
+    with pytest.raises(IndexError):
+        goals[len(values)]
+
+
+def test_there_must_be_one():
+    with pytest.raises(ValueError, match=r"^a motion problem needs at least one goal$"):
+        Goals(())
+
+
+def test_they_must_be_alike():
+    goals = Goals(iter((Goal((0.0,)), Goal((0.0, 1.0)))))
+    with pytest.raises(ValueError, match=r"^all goals of a motion problem must have the same number of joint values$"):
+        len(goals)

@@ -22,6 +22,7 @@ COMMANDS = {
     "run": "plan for one problem (the command that is meant when none is named)",
     "prompt": "print what a model would be sent first, without sending it",
     "instance": "write a problem to a file, for --instance",
+    "verify": "check a plan again, in a fresh world and without a model",
     "list": "show every plugin, where it comes from, and what failed to load",
 }
 INTERRUPTED, TERMINATED = 130, 143

@@ -22,6 +22,7 @@ from llm3.cli.text import emit
 from llm3.jsonio import dumps
 from llm3.records import Recorder, create_default_folder, create_folder
 from llm3.registry import Registry
+from llm3.timing import unknown_limits
 from llm3.types import Result, RunEvent
 
 _DEFAULT = RunConfig(domain="")
@@ -64,6 +65,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         help=f"a guard on one query; a run that hits it may not repeat (default: {_DEFAULT.planner_seconds:g})",
     )
     add(
+        "--timing",
+        metavar="NAME",
+        help="what puts times to the plan's motions, or none (default: toppra if it is installed)",
+    )
+    add(
         "--max-llm-calls",
         type=int,
         metavar="N",
@@ -102,6 +108,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
         planner=arguments.planner,
         planner_iterations=arguments.planner_iterations,
         planner_seconds=arguments.planner_seconds,
+        timing=arguments.timing,
         max_llm_calls=arguments.max_llm_calls,
         trace_size=arguments.trace_size,
         options=chosen_options(arguments),
@@ -118,6 +125,9 @@ def run(arguments: Namespace, out: TextIO) -> int:
             view.note(ready.backend.notice)
         for broken in registry.broken:
             view.note(f"warning: plugin {broken.plugin} failed to load: {broken.reason}")
+        reason = unknown_limits(ready.problem.env.joints) if ready.timer else ""
+        if reason and (arguments.timing or ready.problem.env.joints):
+            view.note(f"the plan will have no times: {reason}.")
         with Recorder(folder, ready) as record, view:
 
             def observe(event: RunEvent) -> None:

@@ -90,12 +90,12 @@ def test_no_subcommand_means_run(command):
 def test_every_choice_is_what_the_record_says_was_asked(corridor, cwd):
     corridor(
         "--setting default --seed 7 --strategy sample-params --feedback binary --llm random --planner birrt "
-        "--planner-iterations 99 --planner-seconds 9 --max-llm-calls 3 --trace-size 2 --out here --quiet"
+        "--planner-iterations 99 --planner-seconds 9 --timing none --max-llm-calls 3 --trace-size 2 --out here --quiet"
     )
     assert json.loads((cwd / "here/run.json").read_text(encoding="utf-8"))["config"] == {
         "domain": "corridor", "setting": "default", "seed": 7, "strategy": "sample-params", "feedback": "binary",
         "llm": "random", "model": None, "temperature": None, "planner": "birrt", "planner_iterations": 99,
-        "planner_seconds": 9.0, "max_llm_calls": 3, "trace_size": 2,
+        "planner_seconds": 9.0, "timing": "none", "max_llm_calls": 3, "trace_size": 2,
         "options": {},
     }  # fmt: skip
 

@@ -11,7 +11,7 @@ import pytest
 RUN_FLAGS = (
     "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, --model, "
     "--out, --planner, --planner-iterations, --planner-seconds, --quiet, "
-    "--seed, --setting, --strategy, --temperature, --trace-size, --version, -D, -h"
+    "--seed, --setting, --strategy, --temperature, --timing, --trace-size, --version, -D, -h"
 )
 SENTENCES = {
     "": "no domain: give --domain NAME. Known: boxpack, corridor.",
@@ -26,7 +26,8 @@ SENTENCES = {
     "--domain corridor --feedback categorised": (
         "unknown feedback 'categorised'; did you mean 'categorized'? Known: binary, categorized, none."
     ),
-    "--domain corridor --planner birt": "unknown planner 'birt'; did you mean 'birrt'? Known: birrt.",
+    "--domain corridor --planner birt": "unknown planner 'birt'; did you mean 'birrt'? Known: birrt, ompl-bitstar, "
+    "ompl-lbkpiece, ompl-rrtconnect.",
     "--domain corridor --llm ofline": (
         "unknown backend 'ofline'; did you mean 'offline'? Known: http, offline, random, scripted."
     ),
@@ -61,8 +62,10 @@ SENTENCES = {
     "--domain corridor --instance a.json --setting default": (
         "--setting and --instance both choose a problem: give one of them."
     ),
-    "lst": "unknown command 'lst'; did you mean 'list'? Known: instance, list, prompt, run.",
-    "--domain corridor list": "unexpected argument 'list'. A command stands first: run, prompt, instance, list.",
+    "lst": "unknown command 'lst'; did you mean 'list'? Known: instance, list, prompt, run, verify.",
+    "--domain corridor list": (
+        "unexpected argument 'list'. A command stands first: run, prompt, instance, verify, list."
+    ),
     "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
     "prompt --domain corridor --llm http": (
         "unknown flag '--llm'. Known: --debug, --domain, --help, --instance, --json, --seed, --setting, --strategy, "

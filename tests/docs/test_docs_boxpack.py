@@ -116,6 +116,7 @@ def test_the_limits_of_an_instance_file_are_those_of_its_sentences():
         f"{grasps.OPENING_MARGIN * 1000:g} mm wider than the box",
         f"The widest box that it takes is {GRIPPER.max_opening - grasps.OPENING_MARGIN:g} m",
         f"{grasps.ABOVE_CENTER * 1000:g} mm, or a quarter of the box's height",
+        f"stops {grasps.CUP_GAP * 1000:g} mm above the face",
         f"{SettlerSettings().density:g} kg/m³",
         f"friction coefficient {SettlerSettings().friction:g}",
         f"path to {TouchdownSettings().height:g} m above",

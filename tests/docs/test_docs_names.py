@@ -83,7 +83,7 @@ def test_the_front_page_and_the_command_line_name_what_ships():
     registry = Registry.discover(own)
     assert not registry.broken
     flags = {"--domain": "domain", "--strategy": "strategy", "--feedback": "feedback", "--planner": "planner"}
-    flags["--llm"] = "backend"
+    flags |= {"--timing": "timer", "--llm": "backend"}
     listed: dict[str, set[str]] = {}
     flag = ""
     for row in next(t for t in tables(page("command-line")) if t.heading == "Names").rows:

@@ -35,6 +35,7 @@ STRUCTURES = {
     "action": types.Action,
     "motion": types.Motion,
     "segment": types.Segment,
+    "trajectory": types.Trajectory,
     "event": types.Event,
 }
 FILES, EVENTS = "The record of a run", "events.jsonl"

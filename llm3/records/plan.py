@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from llm3.assembly import Problem
+from llm3.assembly import Problem, open_problem
 from llm3.errors import InputError
 from llm3.interfaces import Joint
-from llm3.jsonio import read_file, to_builtins
+from llm3.jsonio import dumps, loads, read_file, to_builtins
+from llm3.registry import Registry
 from llm3.types import PlannedAction, Result, State
 
 PLAN_FORMAT = "llm3-plan/1"
@@ -18,7 +19,7 @@ PLAN_FORMAT = "llm3-plan/1"
 
 @dataclass(frozen=True)
 class PlanFile:
-    """A solution on disk. It holds no time, folder or backend, so that equal runs give equal bytes.
+    """A solution on disk. It holds no date, folder or backend, so that equal runs give equal bytes.
 
     Lengths are in metres; joint values in the units of `joints`; poses in the world frame but for a grasp, which is
     the object's pose in the tool frame.
@@ -65,3 +66,45 @@ def read_plan(path: Path) -> PlanFile:
         if not path.exists():
             raise InputError(f"{path.parent} holds no plan.json: the run was not solved.")
     return read_file(path, PlanFile)
+
+
+def open_plan(registry: Registry, plan: PlanFile) -> Problem:
+    """Make the world that a plan is for; the opposite of :func:`plan_file`.
+
+    Raises:
+        UnknownName: There is no such domain, or it has no such option.
+        InputError: The instance is none of the domain's, or the plan is for another robot or does not fit itself.
+    """
+    domain = registry.domain(plan.domain)
+    instance = loads(dumps(plan.instance), domain.instance_type, "the plan's instance")
+    problem = open_problem(domain, instance, plan.options)
+    try:
+        _check_joints(plan, problem.env.joints)
+    except BaseException:
+        problem.env.close()
+        raise
+    return problem
+
+
+def _check_joints(plan: PlanFile, joints: tuple[Joint, ...]) -> None:
+    """See that all configurations are of this robot."""
+    planned, there = (", ".join(f"{j.name} ({j.unit})" for j in side) or "none" for side in (plan.joints, joints))
+    if planned != there:
+        raise InputError(f"the plan is for a robot with the joints {planned}, but the robot has {there}.")
+    count = len(plan.joints or plan.start.configuration)
+    for owner, length in _lengths(plan):
+        if length != count:
+            raise InputError(f"the plan has {length} joint values in {owner}, and the robot needs {count}.")
+
+
+def _lengths(plan: PlanFile) -> Iterator[tuple[str, int]]:
+    """How many joint values each configuration has, and where it stands."""
+    yield "the start", len(plan.start.configuration)
+    for number, step in enumerate(plan.actions, start=1):
+        for segment in step.motion.segments:
+            owner = f"segment {segment.label!r} of action {number}"
+            if not segment.waypoints:
+                raise InputError(f"the plan has no waypoints in {owner}.")
+            for row in (*segment.waypoints, *(segment.trajectory.positions if segment.trajectory else ())):
+                yield owner, len(row)
+        yield f"the state after action {number}", len(step.state.configuration)

@@ -20,7 +20,7 @@ from llm3.types import ActionTried, AttemptEnded, FrozenDict, ReplyReceived, Run
 
 RUN_FORMAT = "llm3-run/1"
 EVENTS_FORMAT = "llm3-events/1"
-VERSIONED = ("llm3", "numpy", "scipy", "pybullet")
+VERSIONED = ("llm3", "numpy", "scipy", "pybullet", "ompl", "toppra")
 
 
 @dataclass(frozen=True)

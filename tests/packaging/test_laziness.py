@@ -8,7 +8,7 @@ import sys
 import pytest
 from command_line import environment, run
 
-HEAVY = {"pybullet", "pybullet_data", "requests", "scipy"}
+HEAVY = {"matplotlib", "ompl", "pybullet", "pybullet_data", "requests", "scipy", "toppra"}
 REPORT = "import json, sys; print('\\n' + json.dumps(sorted({name.partition('.')[0] for name in sys.modules})))"
 LOOKS = {
     "import llm3": "import llm3",

@@ -135,7 +135,8 @@ class BoxpackEnv(Env):
             raise ValueError("nothing is held, so nothing can be placed")
         bottom = self._cell.kinematics.tool(np.array([motion.segments[-1].waypoints[0]]))[0]
         released = {**state.poses, state.held.object: as_pose(bottom @ as_matrix(state.held.grasp))}
-        settled = self._cell.settler.settle((*self._furniture, *self._manipulation.movable(released)))
+        everything = (*self._furniture, *self._manipulation.movable(released))
+        settled = self._cell.settler.settle_around(state.held.object, everything)
         after = State(settled, motion.end)
         return Transition(after, surprises(released, after.poses))
 

@@ -75,6 +75,8 @@ class JointSpace(FreeSpace):
         limit = steps + 1  # the first sample that is known to be blocked
         for batch in _batches(steps):
             before = batch[batch < limit]
+            if not len(before):
+                continue
             blocked = before[~self.free(_samples(start, end, steps, before))]
             limit = min([limit, *blocked.tolist()])
         strides = min(steps, max(1, int(np.ceil(np.linalg.norm(end - start) / length))))

@@ -95,6 +95,8 @@ def _may_be_free(starts: Vector, ends: Vector, space: JointSpace) -> NDArray[np.
     """Which of the straight lines between configurations (N, dof) are free at a few samples each."""
     open_ = np.arange(len(starts))
     for number in bisection_order(PROBES + 1):  # one of each line at a time: what is blocked once is not asked again
+        if not len(open_):
+            break
         weight = number / (PROBES + 1)
         open_ = open_[space.free(starts[open_] * (1 - weight) + ends[open_] * weight)]
     return open_

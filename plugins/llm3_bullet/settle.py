@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,6 +44,13 @@ class Settler:
         """Settle in this world, which nothing else may use."""
         self._client = client
         self.settings = settings
+
+    def settle_around(self, name: str, boxes: Iterable[Box]) -> dict[str, Pose]:
+        """`settle`, where only one box is let go and the others rest: those that it cannot reach stay as they are."""
+        boxes = tuple(boxes)
+        concerned = _within_reach(name, tuple(box for box in boxes if not box.fixed))
+        settled = self.settle(box for box in boxes if box.fixed or box.name in concerned)
+        return {box.name: settled.get(box.name, box.pose) for box in boxes if not box.fixed}
 
     def settle(self, boxes: Iterable[Box]) -> dict[str, Pose]:
         """Let go of the boxes and wait until they rest.
@@ -90,3 +97,17 @@ class Settler:
         linear, angular = self._client.getBaseVelocity(body)
         settings = self.settings
         return math.hypot(*linear) < settings.linear_speed and math.hypot(*angular) < settings.angular_speed
+
+
+def _within_reach(name: str, boxes: Sequence[Box]) -> set[str]:
+    """The box of this name, those that it could touch if it toppled, those that these could touch, and so on."""
+    reached = {name}
+    spreading = [box for box in boxes if box.name == name]
+    while spreading:
+        one = spreading.pop()
+        for other in boxes:
+            apart = math.dist(one.pose.position, other.pose.position)
+            if other.name not in reached and apart <= math.hypot(*one.size) + math.hypot(*other.size):
+                reached.add(other.name)
+                spreading.append(other)
+    return reached

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from llm3_bullet.descent import descend, within_tolerance
+from llm3_bullet.descent import descend, pose_error, within_tolerance
 from llm3_bullet.kinematics import Kinematics
 
 Array = NDArray[np.float64]
@@ -14,7 +14,8 @@ MAX_DEVIATION = 5e-4
 """Halfway between two waypoints the tool is at most this far from the line, in metres."""
 MAX_JUMP = 0.3
 """Between two waypoints no joint moves further than this, in radians."""
-_END_STEPS, _STEPS = 8, 5
+_END_STEPS, _STEPS = 8, 6
+_SINGULAR = 0.05  # singular values below this fraction of the largest count as none: no guess goes far for them
 
 
 def line_poses(start: Array, end: Array, spacing: float) -> Array:
@@ -32,8 +33,8 @@ def line_poses(start: Array, end: Array, spacing: float) -> Array:
 def straight_line(kinematics: Kinematics, starts: Array, targets: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Follow tool poses from each of several start configurations.
 
-    The line's end is found from its start by damped least squares, which moves the joints as little as it can; the
-    waypoints between them are then corrected from straight interpolation in joint space, all at once.
+    The waypoints are guessed on a straight line in joint space and then corrected by damped least squares, all at once.
+    The guess ends where the start's Jacobian points to; where that leads nowhere, where damped least squares leads.
 
     Args:
         kinematics: The robot's.
@@ -47,17 +48,37 @@ def straight_line(kinematics: Kinematics, starts: Array, targets: Array) -> tupl
         `MAX_JUMP`, and straight interpolation in joint space stays within `MAX_DEVIATION` of the line. The waypoints
         of the other lines mean nothing.
     """
+    waypoints = np.empty((len(starts), len(targets), starts.shape[1]))
+    followed = np.zeros(len(starts), dtype=bool)
+    for ends in (_ends_by_jacobian, _ends_by_descent):
+        open_ = np.flatnonzero(~followed)
+        if len(open_):
+            guessed = ends(kinematics, starts[open_], targets[-1])
+            waypoints[open_], followed[open_] = _corrected(kinematics, starts[open_], guessed, targets)
+    return waypoints, followed
+
+
+def _ends_by_jacobian(kinematics: Kinematics, starts: Array, target: Array) -> Array:
+    """The least motion of the joints, (K, dof), that to first order takes the tool to the target."""
+    poses, jacobian = kinematics.tool_and_jacobian(starts)
+    along = pose_error(poses, np.broadcast_to(target, (len(starts), 4, 4)))
+    inverse = np.linalg.pinv(jacobian, rcond=_SINGULAR)
+    ends: Array = starts + (inverse @ along[:, :, None])[:, :, 0]
+    return ends
+
+
+def _ends_by_descent(kinematics: Kinematics, starts: Array, target: Array) -> Array:
+    return descend(kinematics, starts, np.broadcast_to(target, (len(starts), 4, 4)), _END_STEPS)[0]
+
+
+def _corrected(kinematics: Kinematics, starts: Array, ends: Array, targets: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Waypoints between starts and guessed ends, both (K, dof), moved onto the targets; and which lines are good."""
     (count, dof), length = starts.shape, len(targets)
-    ends, errors = descend(kinematics, starts, np.broadcast_to(targets[-1], (count, 4, 4)), _END_STEPS)
     fractions = np.arange(1, length + 1)[:, None] / length
-    waypoints = starts[:, None] + fractions * (ends - starts)[:, None]
-    followed = within_tolerance(errors)
-    live = np.flatnonzero(followed)
-    corrected, errors = descend(
-        kinematics, waypoints[live].reshape(-1, dof), np.tile(targets, (len(live), 1, 1)), _STEPS
-    )
-    waypoints[live] = corrected.reshape(-1, length, dof)
-    followed[live] = within_tolerance(errors).reshape(-1, length).all(axis=1)
+    guesses = starts[:, None] + fractions * (ends - starts)[:, None]
+    corrected, errors = descend(kinematics, guesses.reshape(-1, dof), np.tile(targets, (count, 1, 1)), _STEPS)
+    waypoints = corrected.reshape(count, length, dof)
+    followed = within_tolerance(errors).reshape(count, length).all(axis=1)
     whole = np.concatenate([starts[:, None], waypoints], axis=1)
     smooth = np.abs(np.diff(whole, axis=1)).max(axis=(1, 2)) <= MAX_JUMP
     return waypoints, followed & smooth & (_deviation(kinematics, whole) <= MAX_DEVIATION)

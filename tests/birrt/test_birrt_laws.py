@@ -130,6 +130,7 @@ def test_what_was_spent_is_told(problem, seed) -> None:
     assert stats.planner_calls == 1
     assert stats.planner_iterations <= 50
     assert stats.validity_checks == sum(tested)
+    assert min(tested) > 0  # nobody is asked about nothing
     assert stats.time_limited == 0
 
 

@@ -15,6 +15,7 @@ from llm3_bullet.settle import Settler, SettlerSettings
 
 TABLE = Box("table", (1.2, 2.0, 0.1), Pose((0.5, 0.0, -0.05)), fixed=True)
 FLOOR = Box("floor", (6.0, 6.0, 0.1), Pose((0.5, 0.0, -0.75)), fixed=True)
+CUBE = (0.07, 0.07, 0.07)
 SIZES = ((0.07, 0.07, 0.07), (0.035, 0.035, 0.07), (0.105, 0.035, 0.07), (0.07, 0.07, 0.04))
 
 
@@ -154,3 +155,20 @@ def test_a_box_that_falls_out_of_the_world_ends_with_the_steps():
 
 def test_nothing_movable_is_at_rest_already(settler):
     assert settler.settle([TABLE]) == {}
+
+
+def test_boxes_that_the_released_one_cannot_reach_stay_as_they_are_to_the_bit(settler):
+    near, far = Box("near", CUBE, Pose((0.575, 0.0, 0.035))), Box("far", CUBE, Pose((0.4, -0.4, 0.0352)))
+    released = Box("a", CUBE, Pose((0.5, 0.0, 0.037)))
+    boxes = (TABLE, released, near, far)
+    around, all_ = settler.settle_around("a", boxes), settler.settle(boxes)
+    assert set(around) == set(all_) == {"a", "near", "far"}
+    assert around["far"] == far.pose
+    assert around["a"] == settler.settle((TABLE, released, near))["a"]
+    assert abs(around["a"].position[2] - 0.035) < 2e-4
+
+
+def test_a_box_that_a_reached_one_could_reach_is_settled_too(settler):
+    row = [Box(name, CUBE, Pose((0.4 + 0.2 * i, 0.0, 0.045))) for i, name in enumerate("abc")]
+    settled = settler.settle_around("a", (TABLE, *row))
+    assert all(abs(settled[name].position[2] - 0.035) < 2e-4 for name in "abc")

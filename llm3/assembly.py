@@ -8,6 +8,8 @@ from math import inf
 from types import TracebackType
 from typing import Any
 
+from threadpoolctl import threadpool_limits
+
 from llm3.errors import MissingCapability, MissingDependency, UnknownName, UsageError
 from llm3.guarded import guarded
 from llm3.interfaces import (
@@ -105,7 +107,15 @@ class Run:
     timer: TrajectoryTimer | None = None
 
     def solve(self, observer: Observer = nobody) -> Result:
-        """Run it; see :func:`llm3.solve`."""
+        """Run it; see :func:`llm3.solve`.
+
+        numpy's linear algebra works on one thread meanwhile: the matrices here are small, so that more threads make it
+        several times slower, and the last bits of a sum would depend on their number.
+        """
+        with threadpool_limits(1, user_api="blas"):
+            return self._solve(observer)
+
+    def _solve(self, observer: Observer) -> Result:
         config = self.config
         return solve(
             self.problem.env,

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 from line_world import FINISH, FullLineDomain, LineDomain, LineInstance, LinePlugin, go, line_registry, reply
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from llm3 import LLMBackend, Registry, hookimpl
 from llm3.assembly import RunConfig, assemble, choose_instance, choose_options, open_problem
@@ -136,6 +137,17 @@ def test_a_window_needs_a_domain_that_has_one():
 
 
 # ---- runs ----------------------------------------------------------------------------------------------------------
+
+
+def test_numpy_works_on_one_thread_during_a_run_and_as_before_after_it():
+    def threads():
+        return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
+
+    with threadpool_limits(2, user_api="blas"), assemble(line_registry(), config()) as run:
+        before, during = threads(), set()
+        run.solve(lambda _event: during.update(threads()))
+        assert during == ({1} if before else set())  # numpy may be built without such a library
+        assert threads() == before
 
 
 def test_a_run_is_assembled_and_solved():

@@ -119,6 +119,7 @@ class BoxpackEnv(Env):
             self._cell.model.high,
             valid=lambda Q: transit.valid(Q, CLEARANCE),
             resolution=transit.resolution(CLEARANCE),
+            uncertain=lambda start, end, steps: transit.uncertain(start, end, steps, CLEARANCE),
             explain=lambda q: transit.contacts(q, CLEARANCE),
             before=() if state.held else self._manipulation.open_to(scene.opening),
         )

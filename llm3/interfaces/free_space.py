@@ -53,6 +53,19 @@ class FreeSpace:
             )
         return mask
 
+    def uncertain(self, start: Vector, end: Vector, steps: int) -> Mask:
+        """Which samples of the straight line, that many even steps apart, need a test, shape (steps + 1,).
+
+        Raises:
+            PluginError: The problem does not answer one truth value a sample.
+        """
+        if self._problem.uncertain is None or steps <= FIRST_BATCH:
+            return np.ones(steps + 1, dtype=bool)
+        mask = np.asarray(self._problem.uncertain(start, end, steps), dtype=bool)
+        if mask.shape != (steps + 1,):
+            raise PluginError(f"`uncertain` must answer {steps} steps with shape ({steps + 1},), not {mask.shape}.")
+        return mask
+
     def free_goals(self) -> NDArray[np.int64] | Failure:
         """The numbers of the goals that are free, in order; or why there is nothing to search for.
 
@@ -82,10 +95,11 @@ class FreeSpace:
         return True
 
     def _samples(self, start: Vector, end: Vector) -> Vector:
-        """The line from `start` until shortly before `end`, in an order that soon meets an obstacle of some width."""
+        """What needs a test from `start` until shortly before `end`, so that an obstacle of some width is soon met."""
         steps = max(1, int(np.ceil((np.abs(end - start) / self._problem.resolution).sum())))
-        i = bisection_order(steps)[:, None]
-        return np.vstack([start, (start * (steps - i) + end * i) / steps])
+        numbers = np.concatenate([[0], bisection_order(steps)])
+        i = numbers[self.uncertain(start, end, steps)[numbers]][:, None]
+        return np.where(i == 0, start, (start * (steps - i) + end * i) / steps)
 
     def collision(self, kind: FailureKind, configurations: Vector) -> Failure:
         """Why none of these configurations, shape (N, dof), will do.

@@ -175,6 +175,9 @@ class MotionProblem:
     """Takes configurations (N, dof), answers which of them are free, (N,)."""
     resolution: Vector
     """Shape (dof,). Two neighbouring samples of an edge differ by Δq with Σ|Δq_j|/resolution_j ≤ 1."""
+    uncertain: Callable[[Vector, Vector, int], Mask] | None = None
+    """Saves tests. Takes both ends of a straight line and the number of even steps between its samples, answers which
+    of the samples, (steps + 1,), need a test. The others are certainly free."""
     explain: Callable[[Vector], tuple[Contact, ...]] = field(default=_no_contacts)
     """Takes one configuration (dof,), answers what touches what there, the deepest first."""
     label: str = "transit"

@@ -61,7 +61,7 @@ class JointSpace(FreeSpace):
         The first batch that meets something ends the test.
         """
         steps = self.steps(start, end)
-        for batch in _batches(steps):
+        for batch in self._batches(start, end, steps):
             samples = _samples(start, end, steps, batch)
             blocked = ~self.free(samples)
             if blocked.any():
@@ -73,7 +73,7 @@ class JointSpace(FreeSpace):
         """Go from `start` towards `end`, by whole strides of about this length, for as long as it is free."""
         steps = self.steps(start, end)
         limit = steps + 1  # the first sample that is known to be blocked
-        for batch in _batches(steps):
+        for batch in self._batches(start, end, steps):
             before = batch[batch < limit]
             if not len(before):
                 continue
@@ -83,6 +83,15 @@ class JointSpace(FreeSpace):
         numbers = np.arange(1, strides + 1) * steps // strides
         nodes = _samples(start, end, steps, numbers[numbers < limit])
         return Advance(nodes, None if limit > steps else _samples(start, end, steps, np.array([limit]))[0])
+
+    def _batches(self, start: Vector, end: Vector, steps: int) -> Iterator[NDArray[np.int64]]:
+        """The numbers of the line's samples from 1 to `steps` that need a test, the end first, in growing batches."""
+        order = np.concatenate([[steps], bisection_order(steps)])
+        order = order[self.uncertain(start, end, steps)[order]]
+        first, size = 0, FIRST_BATCH
+        while first < len(order):
+            yield order[first : first + size]
+            first, size = first + size, GROWTH * size
 
     def step(self, start: Vector, target: Vector, length: float) -> Vector:
         """The point at most `length` from `start` on the way to `target`; `target` itself where it is that near."""
@@ -99,15 +108,6 @@ class JointSpace(FreeSpace):
     def diagonal(self) -> float:
         """The length of the diagonal of the joint limits."""
         return float(np.linalg.norm(self._high - self._low))
-
-
-def _batches(steps: int) -> Iterator[NDArray[np.int64]]:
-    """The numbers of a line's samples, from 1 to `steps`, the end first."""
-    order = np.concatenate([[steps], bisection_order(steps)])
-    first, size = 0, FIRST_BATCH
-    while first < steps:
-        yield order[first : first + size]
-        first, size = first + size, GROWTH * size
 
 
 def _samples(start: Vector, end: Vector, steps: int, numbers: NDArray[np.int64]) -> Vector:

@@ -17,13 +17,15 @@ from llm3_bullet.hulls import MARGIN
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.link_spheres import TOLERANCE, spheres_of_held, spheres_of_links
 from llm3_bullet.narrowphase import Questions
-from llm3_bullet.reach import extent
+from llm3_bullet.reach import extent, joints_below
 from llm3_bullet.scene import HeldBox, Scene
 from llm3_bullet.self_collision import NeighbourClearance, Pair
-from llm3_bullet.sphere_tests import SpheresAgainstBoxes, SpheresAgainstSpheres
+from llm3_bullet.sphere_tests import Mask, Single, SpheresAgainstBoxes, SpheresAgainstSpheres
 
 Array = NDArray[np.float64]
 
+_SLACK = 1e-4  # metres that single precision may lose in a gap
+_STILL = 1e-9  # keeps divisions by the travel of what does not move defined
 _KEPT = 256  # openings and held boxes whose spheres are remembered
 
 
@@ -74,6 +76,8 @@ class _Moving:
         self.bodies = bodies
         self.radii = np.concatenate([cover.spheres.radii, held.radii])
         self.mounted = np.isin(bodies, cover.mounted_links)
+        self.joints = joints_below(model)[np.where(bodies == held_number, model.tool, bodies)]
+        """For each sphere the number of arm joints that move it."""
         self.placement = cover.kinematics.placement(
             np.concatenate([cover.spheres.links, held.links]),
             np.concatenate([cover.spheres.centres, held.centres]),
@@ -94,11 +98,10 @@ class Broadphase:
 
     def left_open(self, Q: Array) -> list[tuple[int, Questions]]:
         """The configurations (N, dof), within the limits, that are not certainly clear: what is left to be asked."""
-        cover, moving, count = self._cover, self._moving, len(Q)
-        frames = cover.kinematics.joint_frames(Q)
-        centres = (frames.reshape(4 * count, -1) @ moving.placement).reshape(count, 4, -1)
+        cover, moving = self._cover, self._moving
+        centres = self._centres(Q)
         questions: defaultdict[int, Questions] = defaultdict(Questions)
-        near = cover.neighbours.bounds(Q) <= self._clearance + TOLERANCE
+        near = self._near_neighbours(Q)
         if np.count_nonzero(near):
             for row, pair in np.argwhere(near).tolist():
                 questions[row].pairs.append(cover.neighbours.pairs[pair])
@@ -113,6 +116,39 @@ class Broadphase:
             for row, box, body in sorted(_distinct(rows, boxes, moving.bodies[spheres])):
                 questions[row].boxes.append((box, body))
         return list(questions.items())
+
+    def certain_steps(self, Q: Array, travel: Array) -> Array:
+        """For how many steps of any straight line configurations (N, dof) certainly stay clear, neighbours aside.
+
+        Args:
+            Q: Within the limits.
+            travel: How far each joint moves anything in a step, in metres, (dof,).
+
+        Returns:
+            (N,); less than 0 for a configuration that may not be clear itself.
+        """
+        moving, centres = self._moving, self._centres(Q)
+        moved = np.concatenate([[0.0], np.cumsum(travel)])[moving.joints].astype(np.float32) + _STILL
+        against_boxes = ((self._boxes.gaps(centres) - _SLACK) / moved).min(axis=(1, 2), initial=np.inf)
+        pairs = moving.pairs
+        between = np.abs(moved[pairs.columns] - moved[pairs.rows, None]) + _STILL
+        against_itself = ((pairs.gaps(centres) - _SLACK) / between).min(axis=(1, 2), initial=np.inf)
+        certain: Array = np.minimum(against_boxes, against_itself)
+        return certain
+
+    def neighbours_clear(self, Q: Array) -> Mask:
+        """Whether the pairs of links that are near each other always certainly keep the clearance, (N,)."""
+        clear: Mask = np.logical_not(self._near_neighbours(Q).any(axis=1))
+        return clear
+
+    def _near_neighbours(self, Q: Array) -> Mask:
+        near: Mask = self._cover.neighbours.bounds(Q) <= self._clearance + TOLERANCE
+        return near
+
+    def _centres(self, Q: Array) -> Single:
+        """Where the spheres are, homogeneous, (N, 4, S)."""
+        frames = self._cover.kinematics.joint_frames(Q)
+        return (frames.reshape(4 * len(Q), -1) @ self._moving.placement).reshape(len(Q), 4, -1)
 
 
 def _indices(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], ...]:

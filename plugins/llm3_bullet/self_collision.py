@@ -74,16 +74,17 @@ class NeighbourClearance:
         model = kinematics.model
         below = joints_below(model)
         sliding = _moved_by_fingers(model)
-        self.pairs = tuple((a, b) for a, b in pairs if 1 <= below[b] - below[a] <= 2 and not {a, b} & sliding)
+        self.pairs = tuple((a, b) for a, b in pairs if 1 <= abs(below[b] - below[a]) <= 2 and not {a, b} & sliding)
         # A hair wider than the limits, so that whatever counts as within them has a cell.
         self._low = model.low - EDGE
         self._widths = (model.high + EDGE - self._low) / cells
         self._cells = cells
-        first = np.array([below[a] for a, _ in self.pairs], dtype=np.intp)
-        second = np.array([below[b] - 1 for _, b in self.pairs], dtype=np.intp)
+        first = np.array([min(below[a], below[b]) for a, b in self.pairs], dtype=np.intp)
+        second = np.array([max(below[a], below[b]) - 1 for a, b in self.pairs], dtype=np.intp)
         tables = np.full((len(self.pairs), cells, cells), np.inf, dtype=np.float32)
         for table, pair, i, j in zip(tables, self.pairs, first.tolist(), second.tolist(), strict=True):
-            far = [hull if link == pair[1] else np.empty((0, 3)) for link, hull in enumerate(hulls)]
+            farther = max(pair, key=below.__getitem__)
+            far = [hull if link == farther else np.empty((0, 3)) for link, hull in enumerate(hulls)]
             speed = reach(kinematics, far, 0.0)[[i, j]] * self._widths[[i, j]]
             if i == j:
                 speed[1] = 0.0

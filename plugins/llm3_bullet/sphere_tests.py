@@ -50,11 +50,21 @@ class SpheresAgainstBoxes:
 
     def near(self, centres: Single) -> Mask:
         """Which boxes which spheres may be closer to than the clearance, (N, B, S)."""
+        return (self._squared(centres) <= self._limits).reshape(len(centres), *self._shape)
+
+    def gaps(self, centres: Single) -> Single:
+        """How much farther apart than the clearance they certainly are, (N, B, S) in metres; infinite where exempt."""
+        gaps = np.sqrt(self._squared(centres))
+        gaps -= np.where(self._limits < 0, -np.inf, np.sqrt(np.abs(self._limits)))
+        return gaps.reshape(len(centres), *self._shape)
+
+    def _squared(self, centres: Single) -> Single:
+        """The squared distances of the spheres' centres from the boxes, (N, B S)."""
         offsets = (self._axes @ centres).reshape(len(centres), *self._halves.shape)
         np.abs(offsets, out=offsets)
         offsets -= self._halves
         np.maximum(offsets, 0.0, out=offsets)
-        return (_squared(offsets) <= self._limits).reshape(len(centres), *self._shape)
+        return _squared(offsets)
 
 
 class SpheresAgainstSpheres:
@@ -79,6 +89,17 @@ class SpheresAgainstSpheres:
 
     def near(self, centres: Single) -> Mask:
         """Which spheres may be closer to which than the clearance, (N, rows, columns)."""
+        mask: Mask = self._squared(centres) <= self._limits
+        return mask
+
+    def gaps(self, centres: Single) -> Single:
+        """How much farther apart than the clearance they certainly are, (N, rows, columns); infinite if not tested."""
+        gaps = np.sqrt(np.maximum(self._squared(centres), 0.0))
+        gaps -= np.where(np.isfinite(self._limits), np.sqrt(np.maximum(self._limits, 0.0)), -np.inf)
+        return gaps
+
+    def _squared(self, centres: Single) -> Single:
+        """The squared distances between the centres, (N, rows, columns)."""
         # |a - b|² = (-2 a, |a|², 1) · (b, 1, |b|²), all pairs in one product.
         norms = _squared(centres[:, :3])
         a = np.empty((len(centres), 5, self._limits.shape[0]), np.float32)
@@ -86,8 +107,8 @@ class SpheresAgainstSpheres:
         np.multiply(centres[:, :3, self.rows], -2.0, out=a[:, :3])
         a[:, 3], a[:, 4] = norms[:, self.rows], 1.0
         b[:, :4], b[:, 4] = centres[:, :, self.columns], norms[:, self.columns]
-        mask: Mask = a.swapaxes(1, 2) @ b <= self._limits
-        return mask
+        distances: Single = a.swapaxes(1, 2) @ b
+        return distances
 
 
 def _squared(vectors: Single) -> Single:

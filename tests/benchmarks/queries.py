@@ -40,6 +40,7 @@ class Query:
             cell.model.high,
             valid=lambda configurations: view.valid(configurations, CLEARANCE),
             resolution=view.resolution(CLEARANCE),
+            uncertain=lambda start, end, steps: view.uncertain(start, end, steps, CLEARANCE),
             explain=lambda configuration: view.contacts(configuration, CLEARANCE),
         )
 

@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from llm3.interfaces import PlannerSettings
-from llm3.types import Contact, Failure, FailureKind, Goal, MotionProblem, Path, Vector
+from llm3.types import Contact, Failure, FailureKind, Goal, Mask, MotionProblem, Path, Vector
 from llm3_birrt.planner import BiRRT
 
 RESOLUTION = 0.05
@@ -115,6 +115,25 @@ def test_the_same_generator_state_gives_the_same_answer(problem, seed) -> None:
     else:
         assert first == second
         assert first.stats == second.stats
+
+
+@given(problems, st.integers(0, 9))
+@QUICK
+def test_knowing_what_is_certainly_free_saves_tests_and_changes_nothing_else(problem, seed) -> None:
+    def uncertain(start: Vector, end: Vector, steps: int) -> Mask:
+        line = start + np.linspace(0.0, 1.0, steps + 1)[:, None] * (end - start)
+        around = np.array([[0.0, 0.0], [1e-9, 0.0], [-1e-9, 0.0], [0.0, 1e-9], [0.0, -1e-9]])
+        inside = ((line >= 0.0) & (line <= 1.0)).all(axis=1)
+        return ~np.all([problem.valid(line + offset) for offset in around], axis=0) | ~inside | (line[:, 0] < 0.3)
+
+    told, untold = plan(dataclasses.replace(problem, uncertain=uncertain), seed), plan(problem, seed)
+    assert told.stats.validity_checks <= untold.stats.validity_checks
+    assert told.stats.planner_iterations == untold.stats.planner_iterations
+    assert type(told) is type(untold)
+    if isinstance(told, Path) and isinstance(untold, Path):
+        assert np.array_equal(told.waypoints, untold.waypoints)
+    else:
+        assert told == untold
 
 
 @given(problems, st.integers(0, 9))

@@ -54,6 +54,23 @@ def test_a_path_is_free_where_all_its_lines_are(waypoints, centre, radius) -> No
     assert space.path(waypoints) == all(lines)
 
 
+@given(points, points, points, st.floats(0.01, 0.5), st.integers(0, 9))
+def test_samples_that_are_certainly_free_need_no_test(start, end, centre, radius, seed) -> None:
+    rng = np.random.default_rng(seed)
+
+    def valid(samples: Vector) -> Mask:
+        return np.linalg.norm(samples - centre, axis=1) > radius
+
+    def uncertain(start: Vector, end: Vector, steps: int) -> Mask:
+        line = start + np.linspace(0.0, 1.0, steps + 1)[:, None] * (end - start)
+        return (np.linalg.norm(line - centre, axis=1) < radius + 1e-9) | (rng.random(steps + 1) < 0.5)
+
+    ends = np.array([start, end])
+    every, some = (FreeSpace(problem(valid, resolution=0.01, uncertain=u)) for u in (None, uncertain))
+    assert some.path(ends) == every.path(ends)
+    assert some.checks <= every.checks
+
+
 @given(points, points, st.floats(0.005, 0.5))
 def test_a_line_has_the_same_samples_in_both_directions(start, end, resolution) -> None:
     asked: list[Vector] = []
@@ -170,3 +187,10 @@ def test_a_malformed_problem_is_the_programs_fault(others, sentence) -> None:
     with pytest.raises(PluginError) as caught:
         FreeSpace(problem(**others)).free_goals()
     assert str(caught.value) == sentence
+
+
+def test_a_malformed_answer_about_a_line_is_the_programs_fault() -> None:
+    space = FreeSpace(problem(resolution=0.05, uncertain=lambda start, end, steps: np.ones(steps)))
+    with pytest.raises(PluginError) as caught:
+        space.path(np.array([(0.0, 0.0), (1.0, 0.0)]))
+    assert str(caught.value) == "`uncertain` must answer 20 steps with shape (21,), not (20,)."

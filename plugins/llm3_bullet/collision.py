@@ -7,6 +7,7 @@ and it depends on the configuration and the scene alone, never on what was asked
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import product
 
@@ -98,6 +99,7 @@ class SceneChecker:
         self._checker = checker
         self._model = checker.kinematics.model
         self._low, self._high = self._model.low - LIMIT_TOLERANCE, self._model.high + LIMIT_TOLERANCE
+        self._lowest, self._highest = self._low.tolist(), self._high.tolist()
         self._grasp = as_matrix(scene.held.grasp) if scene.held else None
         self._coarse: dict[float, Broadphase] = {}
         self.scene = scene
@@ -117,6 +119,8 @@ class SceneChecker:
         """
         Q = np.asarray(Q, dtype=float)
         self.checks += len(Q)
+        if len(Q) <= FEW and coarse and clearance <= LARGEST_CLEARANCE:
+            return np.array([self._is_free(q, clearance) for q in Q.tolist()], dtype=bool)
         inside = (self._low <= Q) & (self._high >= Q)
         if np.count_nonzero(inside) == inside.size and 0 < len(Q) <= BATCH:
             return self._free(Q, clearance, coarse)
@@ -192,25 +196,26 @@ class SceneChecker:
         uncertain: Mask = (covers.cumsum()[:-1] == 0) | ~coarse.neighbours_clear(Q)
         return uncertain
 
+    def _is_free(self, q: Sequence[float], clearance: float) -> bool:
+        """The verdict on one configuration, without numpy where PyBullet's collision step clears it."""
+        if not all(low <= value <= high for low, value, high in zip(self._lowest, q, self._highest, strict=True)):
+            return False
+        thick = self._checker.thick_world
+        thick.show(self.scene)
+        return thick.is_clear(q) or bool(self._free(np.array([q]), clearance, coarse=True)[0])
+
     def _free(self, Q: Array, clearance: float, coarse: bool) -> Mask:
         free = np.ones(len(Q), dtype=bool)
-        left = self._left_open(Q, clearance) if coarse else [(row, self._everything()) for row in range(len(Q))]
+        if coarse:
+            left = self._broadphase(clearance).left_open(Q)
+        else:
+            left = [(row, self._everything()) for row in range(len(Q))]
         if left:
             narrowphase = self._checker.narrowphase
             narrowphase.show(self.scene)
             for row, questions in left:
                 free[row] = next(narrowphase.contacts(Q[row], questions, clearance), None) is None
         return free
-
-    def _left_open(self, Q: Array, clearance: float) -> list[tuple[int, Questions]]:
-        """The configurations (N, dof) that no coarse test clears, with what is left to be asked."""
-        if len(Q) > FEW or clearance > LARGEST_CLEARANCE:
-            return self._broadphase(clearance).left_open(Q)
-        thick = self._checker.thick_world
-        thick.show(self.scene)
-        rows = [row for row, q in enumerate(Q) if not thick.is_clear(q)]
-        left = self._broadphase(clearance).left_open(Q[rows]) if rows else []
-        return [(rows[i], questions) for i, questions in left]
 
     def _broadphase(self, clearance: float) -> Broadphase:
         if clearance not in self._coarse:

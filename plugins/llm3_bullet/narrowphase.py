@@ -75,7 +75,7 @@ class Narrowphase:
             clearance: In metres; negative to let things penetrate so far.
         """
         scene, closest, horizon = self._scene, self._client.getClosestPoints, max(clearance, 0.0)
-        self._body.pose(q)
+        self._body.pose(q.tolist())
         if scene.held and any(body == len(self._links) for _, body in (*questions.boxes, *questions.pairs)):
             self._body.hold(self._boxes.held, scene.held.grasp)
         for box, body in questions.boxes:
@@ -108,7 +108,7 @@ class Narrowphase:
         The fingers are where they were last.
         """
         a, b = pair
-        self._body.pose(q)
+        self._body.pose(q.tolist())
         rows = self._client.getClosestPoints(self.robot, self.robot, horizon, b - 1, a - 1)
         return min((float(row[8]) for row in rows), default=horizon)
 

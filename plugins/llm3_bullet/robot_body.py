@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
@@ -34,9 +35,9 @@ class RobotBody:
         for finger in self._fingers:
             self._client.resetJointState(self.number, finger, opening / 2)
 
-    def pose(self, q: Array) -> None:
+    def pose(self, q: Sequence[float]) -> None:
         """Put the arm into a configuration (dof,)."""
-        self._reset([[value] for value in q.tolist()])
+        self._reset([[value] for value in q])
 
     def hold(self, body: int, grasp: Pose) -> None:
         """Put a body where the robot holds it, by a pose in the tool frame."""

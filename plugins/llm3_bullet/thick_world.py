@@ -76,7 +76,7 @@ class ThickWorld:
             self._body.open(scene.opening)
             self._scene = scene
 
-    def is_clear(self, q: Array) -> bool:
+    def is_clear(self, q: Sequence[float]) -> bool:
         """Whether nothing touches in a configuration (dof,) although all is thicker."""
         self._body.pose(q)
         if self._scene.held:

@@ -14,7 +14,7 @@ ROBOTS = ("panda", "iiwa", "toy")
 
 def cleared(checker: CollisionChecker, scene: Scene, Q: np.ndarray) -> np.ndarray:
     checker.thick_world.show(scene)
-    return np.array([checker.thick_world.is_clear(q) for q in Q])
+    return np.array([checker.thick_world.is_clear(q) for q in Q.tolist()])
 
 
 def wrongly_cleared(checker: CollisionChecker, rng: np.random.Generator, held: bool, count: int) -> int:

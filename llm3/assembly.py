@@ -177,11 +177,13 @@ def choose_options(domain: Domain, given: Mapping[str, str]) -> Options:
 def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False) -> Problem:
     """Make the world of an instance, and show it in a window if asked.
 
+    Its options are those that a record keeps: `Domain.self_contained`.
+
     Raises:
         UnknownName: The domain has no such option.
         MissingCapability: The domain has no window.
     """
-    chosen = choose_options(domain, options)
+    chosen = FrozenDict(guarded(domain.self_contained, (Mapping,), choose_options(domain, options)))
     make = domain.make_in_window if window else domain.make
     env = guarded(make, (Env, type(None)) if window else (Env,), instance, chosen)
     if env is None:
@@ -213,7 +215,10 @@ def choose_timer(registry: Registry, name: str | None) -> TrajectoryTimer | None
     if name == UNTIMED:
         return None
     if name is not None:
-        return registry.timer(name)
+        try:
+            return registry.timer(name)
+        except UnknownName as error:
+            raise UnknownName("timer", name, (*error.known, UNTIMED), remark=error.remark) from None
     try:
         return registry.timer(USUAL_TIMER)
     except (UnknownName, MissingDependency):

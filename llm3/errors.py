@@ -51,7 +51,7 @@ class UnknownName(UsageError):
             owner: Whose name it should be, such as ``"domain 'boxpack'"``.
             remark: A further sentence, such as which plugins failed to load.
         """
-        self.kind, self.name, self.known = kind, name, tuple(sorted(known))
+        self.kind, self.name, self.known, self.remark = kind, name, tuple(sorted(known)), remark
         close = difflib.get_close_matches(name, self.known, n=3)
         guess = f"; did you mean {' or '.join(map(repr, close))}?" if close else "."
         valid = ", ".join(self.known) or "none"

@@ -131,3 +131,12 @@ def read_file(path: Path, type_: type[T]) -> T:
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from error
     return loads(data, type_, str(path))
+
+
+def stated_format(path: Path) -> str | None:
+    """What a JSON file says that its format is; None if it says nothing of the kind, or cannot be read."""
+    try:
+        data = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return None
+    return str(data["format"]) if isinstance(data, dict) and "format" in data else None

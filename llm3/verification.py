@@ -31,7 +31,7 @@ def verify(problem: Problem, plan: PlanFile) -> Verification:
     if verifier is None:
         raise MissingCapability(domain.name, "verifier", "'llm3 verify'")
     found = guarded(verifier.verify, (Verification,), plan.start, plan.actions)
-    return replace(found, defects=(*_departures(env, plan), *found.defects, *_unmet(env, plan)))
+    return replace(found, defects=(*_departures(env, plan), *_untimed(plan), *found.defects, *_unmet(env, plan)))
 
 
 def _departures(env: Env, plan: PlanFile) -> Iterator[Defect]:
@@ -42,6 +42,19 @@ def _departures(env: Env, plan: PlanFile) -> Iterator[Defect]:
         reason = _fault(env, step.action)
         if reason:
             yield Defect(reason, number, str(step.action))
+
+
+def _untimed(plan: PlanFile) -> Iterator[Defect]:
+    """Pieces without times in a plan whose other pieces have them."""
+    pieces = [
+        (number, str(step.action), segment)
+        for number, step in enumerate(plan.actions, start=1)
+        for segment in step.motion.segments
+    ]
+    if any(segment.trajectory for _, _, segment in pieces):
+        for number, action, segment in pieces:
+            if not segment.trajectory:
+                yield Defect("it has no times, and other segments have", number, action, segment.label)
 
 
 def _unmet(env: Env, plan: PlanFile) -> Iterator[Defect]:

@@ -31,6 +31,12 @@ class BoxPack(Domain):
         """Start poses drawn from the seed."""
         return generate(setting, seed)
 
+    def self_contained(self, options: Options) -> Options:
+        """With the description of a robot that comes from a file."""
+        from llm3_bullet.robots import in_place
+
+        return {**options, "robot": in_place(options["robot"])}
+
     def make(self, instance: Any, options: Options) -> Env:
         """A PyBullet world without a window."""
         from llm3_boxpack.env import BoxpackEnv

@@ -26,6 +26,7 @@ from llm3_boxpack.instance import BoxpackInstance
 from llm3_boxpack.layout import furniture, support_height
 from llm3_boxpack.manipulation import Manipulation
 from llm3_boxpack.release import surprises
+from llm3_boxpack.start import start_fault
 from llm3_boxpack.wording import describe, task_text
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.scene import Scene
@@ -55,9 +56,9 @@ class BoxpackEnv(Env):
         self._manipulation = Manipulation(boxes, self._furniture, instance.basket, workcell.gripper)
         start = self.reset()
         contacts = workcell.checker.view(self.scene(start)).contacts(np.array(start.configuration))
-        if contacts:
-            touched = ", ".join(dict.fromkeys(contact.object for contact in contacts))
-            raise InputError(f"the arm touches {touched} where it starts: move it farther from the arm.")
+        fault = start_fault(contacts, boxes)
+        if fault:
+            raise InputError(fault)
 
     @property
     def task(self) -> str:

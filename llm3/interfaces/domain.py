@@ -57,6 +57,16 @@ class Domain(ABC):
             options: A value for every one of the domain's `options`, checked against its choices.
         """
 
+    def self_contained(self, options: Options) -> Options:
+        """The options as a record keeps them: in place of a file's name, what is in the file.
+
+        `make` gets what this answers, now and when the record is read again, so this must take its own answer as well.
+
+        Args:
+            options: A value for every one of the domain's `options`.
+        """
+        return options
+
     # ---- capabilities: None means that the domain has none --------------------------------------------
 
     def skeleton(self, instance: Any) -> tuple[Sketch, ...] | None:  # noqa: ARG002  # part of the interface

@@ -21,6 +21,7 @@ from llm3_bullet.urdf import read_xml
 WORLD = "world"
 """The name of the link that carries a robot which does not stand at the world's origin."""
 _ORIGIN = Pose((0.0, 0.0, 0.0))
+_PACKAGE = "package://"
 
 
 @contextmanager
@@ -51,9 +52,18 @@ def _read(file: Path) -> ET.Element:
     robot = read_xml(file)
     for mesh in robot.iter("mesh"):
         name = mesh.get("filename", "")
-        if name and "://" not in name:
+        if name.startswith(_PACKAGE):
+            mesh.set("filename", _in_package(name, file))
+        elif name and "://" not in name:
             mesh.set("filename", str((file.parent / name).resolve()))
     return robot
+
+
+def _in_package(name: str, file: Path) -> str:
+    """Where a ROS package's mesh is: its path begins in a folder above the URDF file, as PyBullet looks for it too."""
+    path = name.removeprefix(_PACKAGE)
+    folders = file.resolve().parents
+    return next((str(folder / path) for folder in folders if (folder / path).is_file()), name)
 
 
 def _set_on_base(robot: ET.Element, base: Pose, file: Path) -> None:
@@ -76,7 +86,7 @@ def _attach(robot: ET.Element, part: Attachment, file: Path) -> None:
         )
     for kind in ("link", "joint"):
         for name in sorted(set(_names(robot, kind)) & set(_names(added, kind))):
-            raise InputError(f"{part_file} has a {kind} {name!r}, and so has {file}: rename one of them.")
+            raise InputError(f"{part_file} has a {kind} {name!r}, and the robot has one already: rename one of them.")
     joint = _fixed_joint(part.link, _base_link(added, part_file), part.pose)
     robot.extend((*added.findall("link"), *added.findall("joint"), joint))
 

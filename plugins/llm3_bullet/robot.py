@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from llm3.types import FrozenDict, Pose
 
 _ORIGIN = Pose((0.0, 0.0, 0.0))
+_LARGEST = 1000.0
+"""Metres, radians, or those per second or second squared: more than that is a mistake."""
+_PERPENDICULAR = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +31,22 @@ class ParallelGripper:
     palm_height: float
     """Distance from the tool point back to the palm, in metres."""
 
+    def __post_init__(self) -> None:
+        if len(self.joints) != 2:
+            raise ValueError(f"fingers need two joints, not {len(self.joints)}")
+        if not self.links:
+            raise ValueError("the links of the fingers must name the hand and the fingers")
+        _positive("max_opening", self.max_opening)
+        for name in ("finger_reach", "palm_height"):
+            if not 0 <= getattr(self, name) <= _LARGEST:
+                raise ValueError(f"{name} must be a length of 0 or more, in metres, not {getattr(self, name):g}")
+        along, length = self.closing_axis[-1], math.hypot(*self.closing_axis)
+        if abs(length - 1) > _PERPENDICULAR or abs(along) > _PERPENDICULAR:
+            raise ValueError(
+                f"closing_axis must be a unit vector across the tool's z axis, such as [0.0, 1.0, 0.0], not "
+                f"{list(self.closing_axis)}"
+            )
+
 
 @dataclass(frozen=True, kw_only=True)
 class SuctionGripper:
@@ -36,6 +56,11 @@ class SuctionGripper:
     """Tube and cup: their contacts are reported as the gripper's, and they may touch what is held."""
     cup_radius: float
     """Radius of the rim in metres: the face must be wider than the rim."""
+
+    def __post_init__(self) -> None:
+        if not self.links:
+            raise ValueError("the links of the suction must name the cup")
+        _positive("cup_radius", self.cup_radius)
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -61,6 +86,9 @@ class Attachment:
     """The robot's link that it is fixed to, such as the flange."""
     pose: Pose = _ORIGIN
     """Of its base link, in that link's frame."""
+
+    def __post_init__(self) -> None:
+        _near("the pose of an attachment", self.pose)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,6 +127,15 @@ class RobotDescription:
     def __post_init__(self) -> None:
         for name in ("joint_limits", "max_velocity", "max_acceleration"):
             object.__setattr__(self, name, FrozenDict(getattr(self, name)))
+        for name in ("max_velocity", "max_acceleration"):
+            for joint, value in getattr(self, name).items():
+                _positive(f"{name} of {joint!r}", value)
+        for joint, limits in self.joint_limits.items():
+            if not -_LARGEST <= limits[0] < limits[1] <= _LARGEST:
+                raise ValueError(f"joint_limits of {joint!r} must be a lower and a higher number, not {list(limits)}")
+        if not self.urdf:
+            raise ValueError("urdf must name a file")
+        _near("the base", self.base)
         if (self.fingers is None) == (self.suction is None):
             raise ValueError(f"robot {self.name!r} needs fingers or suction, one of the two")
 
@@ -108,3 +145,13 @@ class RobotDescription:
         gripper = self.fingers or self.suction
         assert gripper  # noqa: S101  # __post_init__ has seen to it
         return gripper
+
+
+def _positive(what: str, value: float) -> None:
+    if not 0 < value <= _LARGEST:
+        raise ValueError(f"{what} must be more than 0 and at most {_LARGEST:g}, not {value:g}")
+
+
+def _near(what: str, pose: Pose) -> None:
+    if max(map(abs, pose.position)) > _LARGEST:
+        raise ValueError(f"{what} must be within {_LARGEST:g} m, not at {list(pose.position)}")

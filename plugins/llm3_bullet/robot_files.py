@@ -32,7 +32,7 @@ def locate(file: str) -> Path:
 
 
 def read_robot(path: Path) -> RobotDescription:
-    """Read a description from a JSON file; paths in it are relative to the file's folder.
+    """Read a description from a JSON file; paths in it are relative to the file's folder, and absolute in the answer.
 
     Raises:
         InputError: The file cannot be read, or does not hold a description.
@@ -43,4 +43,4 @@ def read_robot(path: Path) -> RobotDescription:
 
 
 def _beside(path: Path, file: str) -> str:
-    return file if file.startswith(_PACKAGE) else str(path.parent / file)
+    return file if file.startswith(_PACKAGE) else str((path.parent / file).resolve())

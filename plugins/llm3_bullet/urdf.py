@@ -34,7 +34,7 @@ class UrdfJoint:
     limits: tuple[float, float] | None
     """Lowest and highest position in radians or metres; None where the file states none."""
     max_velocity: float | None
-    """In rad/s or m/s; None where the file states none."""
+    """In rad/s or m/s; None where the file states none above 0."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,7 +146,7 @@ def _joint(element: ET.Element) -> UrdfJoint:
         origin=origin,
         axis=axis / length if length else axis,
         limits=limits,
-        max_velocity=velocity or None,
+        max_velocity=velocity if velocity > 0 else None,
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from packing_world import BAR, BASKET, CUBE, POST, after, box, carried_out, moved, pick, place, problem, refused
@@ -9,8 +11,11 @@ from scipy.spatial.transform import Rotation
 
 from llm3.errors import InputError, UsageError
 from llm3.types import FailureKind, State
+from llm3_boxpack.env import BoxpackEnv
 from llm3_boxpack.instance import BoxSpec
+from llm3_bullet.robots.panda import panda
 from llm3_bullet.touchdown import CUT_SHORT
+from llm3_bullet.workcell import Workcell
 
 RED, BLUE = box("red_box", 0.39, -0.2), box("blue_box", 0.39, 0.1)
 TWO = problem(RED, BLUE)
@@ -199,6 +204,29 @@ def test_a_box_inside_of_the_arm_is_refused_when_the_world_is_made(make):
     with pytest.raises(InputError) as error:
         make(problem(box("red_box", 0.0, 0.0)))
     assert str(error.value) == "the arm touches red_box where it starts: move it farther from the arm."
+
+
+@pytest.mark.parametrize(
+    ("home", "sentence"),
+    [
+        (
+            (0.0, -0.2, 0.3, -2.5, -0.3, 0.2, 0.1),
+            "links of the arm touch each other where it starts: panda_hand and panda_link5. Change the robot's home, "
+            "or name pairs that always touch in its may_touch.",
+        ),
+        (
+            (-0.1, 0.4, -0.2, -2.6, 0.1, 2.3, 1.0),
+            "the arm touches what stands around it where it starts: panda_rightfinger and table. Change the robot's "
+            "home or base, or name links that it stands on in its mounted_links.",
+        ),
+    ],
+)
+def test_an_arm_that_does_not_start_free_is_refused_with_what_to_change(home, sentence):
+    cell = Workcell(replace(panda(), home=home))
+    with pytest.raises(InputError) as error:
+        BoxpackEnv(problem(box("red_box", 0.5, 0.3)), cell)
+    assert str(error.value) == sentence
+    cell.close()
 
 
 def test_a_grasp_that_leaves_no_clearance_to_go_on_from_is_no_goal(make):

@@ -20,7 +20,7 @@ from llm3_bullet.model import RobotModel
 from llm3_bullet.mounting import urdf_file
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.robot import Attachment
-from llm3_bullet.robots import iiwa
+from llm3_bullet.robots import iiwa, panda
 
 HOOK = """
 <robot name="hook">
@@ -75,6 +75,28 @@ def test_a_base_moves_all_of_the_robot(toy, pose):
     np.testing.assert_allclose(frames[at], expected, atol=1e-4)
 
 
+@pytest.mark.parametrize("folder", ["", "arms", "arms/urdf"])
+def test_meshes_of_a_ros_package_are_found_from_wherever_the_urdf_stands_in_it(toy, tmp_path, folder):
+    """`package://` names a folder above the URDF file, as it does for PyBullet."""
+    (tmp_path / "arm_description" / folder).mkdir(parents=True)
+    (tmp_path / "arm_description" / "hook.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
+    mesh = '<mesh filename="package://arm_description/hook.obj"/>'
+    part = tmp_path / "arm_description" / folder / "hook.urdf"
+    part.write_text(HOOK.replace('<sphere radius="0.02"/>', mesh))
+    with urdf_file(replace(toy, attachments=(Attachment(urdf=str(part), link="hand"),))) as file, connect() as client:
+        assert f'filename="{tmp_path / "arm_description" / "hook.obj"}"' in file.read_text()
+        with quiet():
+            assert client.loadURDF(str(file)) >= 0
+
+
+def test_a_panda_can_stand_on_something():
+    raised = RobotModel(replace(panda(), base=Pose((0.0, 0.0, 0.02))))
+    tools = [Kinematics(model).tool(model.home[None])[0] for model in (raised, RobotModel(panda()))]
+    np.testing.assert_allclose(tools[0][:3, 3] - tools[1][:3, 3], (0.0, 0.0, 0.02), atol=1e-9)
+    with urdf_file(raised.description) as file, quiet(), connect() as client:
+        assert client.loadURDF(str(file)) >= 0
+
+
 def test_the_file_is_gone_afterwards_and_pybullet_finds_the_meshes_from_it():
     with connect() as client:
         with urdf_file(iiwa()) as file, quiet():
@@ -94,12 +116,12 @@ def test_the_file_is_gone_afterwards_and_pybullet_finds_the_meshes_from_it():
         (
             HOOK.replace('"point"', '"hand"'),
             "hand",
-            "{part} has a link 'hand', and so has {robot}: rename one of them.",
+            "{part} has a link 'hand', and the robot has one already: rename one of them.",
         ),
         (
             HOOK.replace("to_point", "elbow"),
             "hand",
-            "{part} has a joint 'elbow', and so has {robot}: rename one of them.",
+            "{part} has a joint 'elbow', and the robot has one already: rename one of them.",
         ),
         (
             HOOK.replace("</robot>", '<link name="loose"/></robot>'),

@@ -8,10 +8,12 @@ from dataclasses import replace
 import pytest
 
 from llm3.errors import InputError, MissingDependency, UnknownName
-from llm3.jsonio import pretty
+from llm3.jsonio import dumps, pretty, to_builtins
 from llm3_bullet.robot import ParallelGripper, RobotDescription, SuctionGripper
 from llm3_bullet.robot_files import locate, read_robot
-from llm3_bullet.robots import ROBOTS, find_robot
+from llm3_bullet.robots import ROBOTS, find_robot, in_place
+
+ACROSS = "closing_axis must be a unit vector across the tool's z axis, such as [0.0, 1.0, 0.0]"
 
 
 @pytest.mark.parametrize("name", ROBOTS)
@@ -55,10 +57,87 @@ def test_a_file_without_a_description_is_refused(tmp_path):
 
 def test_a_robot_holds_things_in_one_way(tmp_path):
     robot = ROBOTS["panda"]()
-    cup = SuctionGripper(links=(), cup_radius=0.01)
+    cup = SuctionGripper(links=("cup",), cup_radius=0.01)
     for fingers, suction in ((None, None), (robot.fingers, cup)):
         with pytest.raises(ValueError, match=r"^robot 'panda' needs fingers or suction, one of the two$"):
             replace(robot, fingers=fingers, suction=suction)
+
+
+@pytest.mark.parametrize(
+    ("fields", "sentence"),
+    [
+        ({"max_velocity": {"a": 0.0}}, "max_velocity of 'a' must be more than 0 and at most 1000, not 0"),
+        ({"max_acceleration": {"a": -1}}, "max_acceleration of 'a' must be more than 0 and at most 1000, not -1"),
+        (
+            {"joint_limits": {"a": [1.0, 1.0]}},
+            "joint_limits of 'a' must be a lower and a higher number, not [1.0, 1.0]",
+        ),
+        (
+            {"joint_limits": {"a": [-1e300, 1e300]}},
+            "joint_limits of 'a' must be a lower and a higher number, not [-1e+300, 1e+300]",
+        ),
+        ({"urdf": ""}, "urdf must name a file"),
+        ({"base": {"position": [0, 0, 1e308]}}, "the base must be within 1000 m, not at [0.0, 0.0, 1e+308]"),
+        (
+            {"attachments": [{"urdf": "a.urdf", "link": "panda_link8", "pose": {"position": [0, -2000, 0]}}]},
+            "the pose of an attachment must be within 1000 m, not at [0.0, -2000.0, 0.0] - at `$.attachments[0]`",
+        ),
+    ],
+)
+def test_a_value_that_makes_no_sense_is_refused(tmp_path, fields, sentence):
+    assert refusal(tmp_path, fields) == sentence
+
+
+@pytest.mark.parametrize(
+    ("fields", "sentence"),
+    [
+        ({"joints": ["panda_finger_joint1"]}, "fingers need two joints, not 1"),
+        ({"links": []}, "the links of the fingers must name the hand and the fingers"),
+        ({"max_opening": -1}, "max_opening must be more than 0 and at most 1000, not -1"),
+        ({"finger_reach": -0.01}, "finger_reach must be a length of 0 or more, in metres, not -0.01"),
+        ({"palm_height": 1e9}, "palm_height must be a length of 0 or more, in metres, not 1e+09"),
+        *(({"closing_axis": axis}, f"{ACROSS}, not {axis}") for axis in ([0.0] * 3, [0.0, 0.0, 1.0], [0.0, 2.0, 0.0])),
+    ],
+)
+def test_a_gripper_that_makes_no_sense_is_refused(tmp_path, fields, sentence):
+    fingers = to_builtins(ROBOTS["panda"]().fingers)
+    assert refusal(tmp_path, {"fingers": {**fingers, **fields}}) == f"{sentence} - at `$.fingers`"
+
+
+@pytest.mark.parametrize(
+    ("fields", "sentence"),
+    [
+        ({"links": []}, "the links of the suction must name the cup"),
+        ({"cup_radius": -1}, "cup_radius must be more than 0 and at most 1000, not -1"),
+    ],
+)
+def test_a_cup_that_makes_no_sense_is_refused(tmp_path, fields, sentence):
+    suction = {"links": ["cup"], "cup_radius": 0.01, **fields}
+    assert refusal(tmp_path, {"fingers": None, "suction": suction}) == f"{sentence} - at `$.suction`"
+
+
+def refusal(tmp_path, fields):
+    """What is said of a file with the Panda's description and these fields, after the file's name."""
+    path = tmp_path / "robot.json"
+    path.write_text(dumps({**to_builtins(ROBOTS["panda"]()), **fields}))
+    with pytest.raises(InputError) as caught:
+        find_robot(str(path))
+    assert str(caught.value).startswith(f"{path}: ")
+    return str(caught.value).removeprefix(f"{path}: ")
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_the_text_of_a_description_stands_for_its_file(name, tmp_path):
+    path = tmp_path / "robot.json"
+    path.write_text(pretty(ROBOTS[name]()))
+    assert in_place(name) == name
+    assert find_robot(in_place(str(path))) == find_robot(str(path))
+    assert in_place(in_place(str(path))) == in_place(str(path))
+
+
+def test_a_text_that_is_no_description_is_refused():
+    with pytest.raises(InputError, match=r"^the robot: Object missing required field `name`$"):
+        find_robot("{}")
 
 
 def test_the_gripper_is_the_one_that_is_there():

@@ -91,11 +91,6 @@ def test_limits_and_home_cannot_be_changed(model):
             "arm joint 'j3' has the limits None, but needs a lower and a higher number; "
             "joint_limits of its description can give them.",
         ),
-        (
-            {"joint_limits": {"j3": (1.0, 1.0)}},
-            "arm joint 'j3' has the limits (1.0, 1.0), but needs a lower and a higher number; "
-            "joint_limits of its description can give them.",
-        ),
     ],
 )
 def test_a_description_that_does_not_fit_is_refused(tmp_path, overrides, sentence):

@@ -80,6 +80,7 @@ def test_one_that_does_not_begin_or_end_at_rest(robot):
     assert found(robot, timed(1.0, velocities=((0.1, 0.0, 0.0), (0.0, 0.02, 0.0)))) == [
         f"{LEAVING}, 0.000 s: the trajectory begins while slide moves at 0.1000 m/s",
         f"{LEAVING}, 1.000 s: the trajectory ends while shoulder moves at 0.0200 rad/s",
+        f"{LEAVING}, 0.625 s: the trajectory is off the straight way from waypoint 0 to 1: shoulder by 0.0029 rad",
     ]
 
 
@@ -87,8 +88,31 @@ def test_one_that_swings_beyond_the_limits_between_its_times(descriptions):
     """At its times it is within them, and so are the waypoints."""
     out = Trajectory((0.0, 1.0, 2.0), (at(CARRIED), at(0.49), at(END)), (STILL, (0.3, 0.0, 0.0), STILL))
     assert found(descriptions["toy"], moved_by(DROP, replace(LEAVE, trajectory=out))) == [
-        f"{LEAVING}, 1.093 s: slide is at 0.5035 m, and its limits are -0.3000 and 0.5000 m"
+        f"{LEAVING}, 1.125 s: the trajectory is off the straight way from waypoint 0 to 1: slide by 0.4020 m",
+        f"{LEAVING}, 1.093 s: slide is at 0.5035 m, and its limits are -0.3000 and 0.5000 m",
     ]
+
+
+def test_one_that_passes_by_a_waypoint(robot):
+    bent = replace(timed(1.0).motion.segments[0], waypoints=(at(CARRIED), (0.05, 0.01, 0.0), at(END)))
+    assert found(robot, moved_by(DROP, bent)) == [
+        f"{LEAVING}, waypoint 1.00: the trajectory does not pass through the waypoint"
+    ]
+
+
+def test_one_that_goes_through_the_waypoints_and_astray_between_them(robot):
+    """From rest to rest in the slide, and at 0.01 rad/s in the shoulder at half time: it sways by 1/27 of a rad/s·s."""
+    sway = Trajectory((0.0, 1.0, 2.0), (at(CARRIED), at(0.065), at(END)), (STILL, (0.05, 0.01, 0.0), STILL))
+    assert found(robot, moved_by(DROP, replace(LEAVE, trajectory=sway))) == [
+        f"{LEAVING}, 0.625 s: the trajectory is off the straight way from waypoint 0 to 1: shoulder by 0.0015 rad"
+    ]
+
+
+def test_one_that_is_in_no_hurry_between_waypoints_is_sound(robot):
+    """The same waypoint twice, and a halt between two."""
+    stops = (at(CARRIED), at(0.05), at(0.05), at(END))
+    halting = Trajectory((0.0, 1.0, 1.5, 2.0, 3.0), (stops[0], at(0.04), at(0.04), *stops[2:]), (STILL,) * 5)
+    assert found(robot, moved_by(DROP, replace(LEAVE, waypoints=stops, trajectory=halting))) == []
 
 
 def test_one_that_leaves_the_way_for_an_obstacle(robot):

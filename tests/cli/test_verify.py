@@ -192,3 +192,26 @@ def test_a_plan_must_be_named(command):
         "llm3: error: the following arguments are required: PLAN. See 'llm3 verify --help'.\n",
     )
     assert command("verify a.json b.json").code == 2
+
+
+def test_a_run_is_no_plan(watched):
+    ended = watched("verify run/run.json")
+    assert (ended.code, ended.err) == (
+        3,
+        "llm3: error: run/run.json: the format is 'llm3-run/1', and this version reads 'llm3-plan/1'\n",
+    )
+
+
+def test_times_for_some_segments_only_are_a_defect(watched, cwd):
+    def half_timed(plan):
+        (segment,) = plan["actions"][0]["motion"]["segments"]
+        still = {"times": [0.0], "positions": segment["waypoints"][-1:], "velocities": [[0.0, 0.0]]}
+        after = {"label": "stay", "waypoints": segment["waypoints"][-1:], "trajectory": still}
+        plan["actions"][0]["motion"]["segments"].append(after)
+
+    edit(cwd, half_timed)
+    ended = watched("verify run")
+    assert (ended.code, ended.out) == (
+        1,
+        "action 1 go([], {'x': 1.9, 'y': 0.5}), transit: it has no times, and other segments have\n",
+    )

@@ -155,7 +155,7 @@ def test_where_the_usual_timer_is_not_there_a_plan_has_no_times():
 def test_a_timer_that_is_asked_for_has_to_be_there():
     with pytest.raises(UnknownName) as caught:
         run_of(registry_with_timers(), timing="place")
-    assert str(caught.value) == "unknown timer 'place'; did you mean 'pace'? Known: pace, toppra."
+    assert str(caught.value) == "unknown timer 'place'; did you mean 'pace'? Known: none, pace, toppra."
 
 
 def test_the_plan_on_disk_has_the_times(tmp_path):

@@ -52,7 +52,7 @@ def test_nobody_who_does_not_ask_for_it_hears_of_a_missing_package(monkeypatch):
 def test_an_unknown_timer_is_named_with_the_known_ones():
     with pytest.raises(UnknownName) as caught:
         choose_timer(registry(), "topra")
-    assert str(caught.value) == "unknown timer 'topra'; did you mean 'toppra'? Known: toppra."
+    assert str(caught.value) == "unknown timer 'topra'; did you mean 'toppra'? Known: none, toppra."
 
 
 def test_nothing_is_printed_and_nothing_is_written_to_the_users_home(tmp_path):

@@ -7,6 +7,11 @@ from llm3_bullet.verification.look import HORIZON, Look, Pair
 from llm3_bullet.verification.sweep import CONTACT
 
 
+def figure(value: float) -> str:
+    """A number as it is told; those of a broken plan may have hundreds of digits."""
+    return f"{value:.4f}" if abs(value) < 1e6 else f"{value:.4g}"
+
+
 class Findings:
     """What a second look has found so far.
 

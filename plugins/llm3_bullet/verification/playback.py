@@ -9,7 +9,7 @@ import numpy as np
 from llm3.types import PlannedAction, Segment, State
 from llm3_bullet.poses import Array
 from llm3_bullet.verification.boxes import Frame
-from llm3_bullet.verification.findings import Findings
+from llm3_bullet.verification.findings import Findings, figure
 from llm3_bullet.verification.gripping import Gripping
 from llm3_bullet.verification.states import States
 from llm3_bullet.verification.sweep import line, sweep
@@ -89,9 +89,9 @@ class Playback:
         index, joint = np.unravel_index(int(beyond.argmax()), beyond.shape)
         if beyond[index, joint] <= EXACT:
             return True
+        name, unit, value = self.world.arm.joint_names[joint], self.world.arm.units[joint], waypoints[index, joint]
         self.findings.tell(
-            f"{self.world.arm.joint_names[joint]} is at {waypoints[index, joint]:.4f} {self.world.arm.units[joint]}, "
-            f"and its limits are {low[joint]:.4f} and {high[joint]:.4f} {self.world.arm.units[joint]}",
+            f"{name} is at {figure(value)} {unit}, and its limits are {low[joint]:.4f} and {high[joint]:.4f} {unit}",
             float(index),
             beyond=float(beyond[index, joint]),
         )

@@ -126,13 +126,15 @@ class BoxpackEnv(Env):
         )
 
     def apply(self, state: State, action: Action, motion: Motion) -> Transition:
-        """The box in the hand after a pick; after a place, all boxes where physics leaves them."""
+        """The box in the hand after a pick, and let go after a place; the others as physics leaves them."""
         if action.name == PICK.name:
             (attach,) = (event for event in motion.events if event.kind is EventKind.ATTACH)
             if attach.object is None or attach.grasp is None:
                 raise ValueError("an attach event names its object and its grasp")
-            poses = {name: pose for name, pose in state.poses.items() if name != attach.object}
-            return Transition(State(poses, motion.end, Held(attach.object, attach.grasp)))
+            standing = (*self._furniture, *self._manipulation.movable(state.poses))
+            poses = self._cell.settler.settle_without(attach.object, standing)
+            after = State(poses, motion.end, Held(attach.object, attach.grasp))
+            return Transition(after, surprises(state.poses, after.poses))
         if state.held is None:
             raise ValueError("nothing is held, so nothing can be placed")
         bottom = self._cell.kinematics.tool(np.array([motion.segments[-1].waypoints[0]]))[0]

@@ -61,6 +61,8 @@ class BoxpackVerifier(PlanVerifier):
         (name,) = action.objects
         if action.name == PICK.name and playback.world.held != name:
             tell(f"the gripper does not hold {name} after it")
+        elif action.name == PICK.name and playback.let_go:
+            tell(f"the gripper lets go of {', '.join(playback.let_go)}, and only takes something in a pick")
         elif action.name == PLACE.name and list(playback.let_go) != [name]:
             tell(f"the gripper does not let go of {name}")
         elif action.name == PLACE.name and set(action.params) == {"x", "y", "theta"}:

@@ -10,6 +10,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from llm3.errors import LLM3Error, PluginError
 from llm3.types.checks import finite
 from llm3.types.failures import Contact
 from llm3.types.state import Pose
@@ -118,6 +119,7 @@ class Goals(Sequence[Goal]):
         self._made: list[Goal] = []
         self._left = iter(goals)
         self._cost = cost
+        self._fault = ""
         if not self._reach(0):
             raise ValueError("a motion problem needs at least one goal")
 
@@ -147,13 +149,26 @@ class Goals(Sequence[Goal]):
     def _reach(self, index: int) -> bool:
         """Make goals up to this one; False if there are not so many."""
         while len(self._made) <= index:
-            goal = next(self._left, None)
+            goal = self._next()
             if goal is None:
                 return False
-            if self._made and len(goal.configuration) != len(self._made[0].configuration):
-                raise ValueError("all goals of a motion problem must have the same number of joint values")
             self._made.append(goal)
         return True
+
+    def _next(self) -> Goal | None:
+        """Make one more goal; None if there is none. What fails here is the fault of who makes the goals."""
+        if self._fault:
+            raise PluginError(self._fault)
+        try:
+            goal = next(self._left, None)
+            if goal and self._made and len(goal.configuration) != len(self._made[0].configuration):
+                raise ValueError("all goals of a motion problem must have the same number of joint values")
+        except LLM3Error:
+            raise
+        except Exception as error:
+            self._fault = f"making goal {len(self._made)} raised {type(error).__name__}: {error}"
+            raise PluginError(self._fault) from error
+        return goal
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,7 +50,7 @@ class ArmLength:
 def _short_way(origins: Array, axes: Array) -> Array:
     """A point on each axis, given by an origin and a unit vector, such that the way through them is short: (n, 3)."""
     points = origins.copy()
-    for _ in range(_SWEEPS):
+    for _ in range(_SWEEPS if len(points) > 1 else 0):
         for j, (origin, axis) in enumerate(zip(origins, axes, strict=True)):
             beside = np.array([points[k] for k in (j - 1, j + 1) if 0 <= k < len(points)]) - origin
             along = beside @ axis

@@ -182,7 +182,8 @@ class SceneChecker:
         """
         numbers = np.arange(steps + 1)
         Q = (start * (steps - numbers[:, None]) + end * numbers[:, None]) / steps
-        if not ((self._low <= Q[[0, -1]]) & (self._high >= Q[[0, -1]])).all():
+        inside = ((self._low <= Q) & (self._high >= Q)).all(axis=1)
+        if not inside.all():
             return np.ones(steps + 1, dtype=bool)
         coarse = self._broadphase(clearance)
         looks = np.append(numbers[:-1:STRIDE], steps)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
@@ -14,13 +15,15 @@ Array = NDArray[np.float64]
 
 MARGIN = 0.001
 """Metres by which PyBullet thickens the hull of a mesh."""
+_CUBE = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
 def link_hull(client: BulletClient, body: int, link: int) -> Array:
     """Points whose convex hull, thickened by `MARGIN`, covers all that collides of a link.
 
-    A mesh gives its vertices, which PyBullet wraps in a convex hull. Any other shape, and several shapes on one
-    link, give the corners of the bounding box that PyBullet reports.
+    A mesh gives its vertices, which PyBullet wraps in a convex hull. Boxes, spheres and capsules give the corners of
+    the boxes around them. Anything else gives the corners of the bounding box that PyBullet reports, which lies along
+    the world's axes.
 
     Args:
         client: The world.
@@ -37,8 +40,24 @@ def link_hull(client: BulletClient, body: int, link: int) -> Array:
         vertices = np.array(client.getMeshData(body, link)[1], dtype=float).reshape(-1, 3)
         if len(vertices) and np.linalg.matrix_rank(vertices - vertices[0], tol=1e-5) == 3:
             return _transformed(client, client.getDynamicsInfo(body, link)[3:5], vertices)
+    halves = [_half_extent(client, kind, size) for _, _, kind, size, *_ in shapes]
+    if all(half is not None for half in halves):
+        boxes = [_transformed(client, shape[5:7], _CUBE * half) for shape, half in zip(shapes, halves, strict=True)]
+        return _transformed(client, client.getDynamicsInfo(body, link)[3:5], np.concatenate(boxes))
     corners = np.array(list(product(*zip(*client.getAABB(body, link), strict=True))))
     return _transformed(client, client.invertTransform(*_link_frame(client, body, link)), corners)
+
+
+def _half_extent(client: BulletClient, kind: int, size: Sequence[float]) -> Array | None:
+    """Half of the sides of the box around a shape of this kind, (3,); None for other kinds."""
+    if kind == client.GEOM_BOX:
+        return np.array(size) / 2
+    if kind == client.GEOM_SPHERE:
+        return np.full(3, size[0])
+    if kind == client.GEOM_CAPSULE:
+        length, radius = size[:2]
+        return np.array((radius, radius, radius + length / 2))
+    return None
 
 
 def thickened(points: Array, thickness: float) -> Array:

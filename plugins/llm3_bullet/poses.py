@@ -44,8 +44,7 @@ def _quaternion(rotation: list[list[float]]) -> tuple[float, float, float, float
     """The unit quaternion x, y, z, w of a rotation; `quaternions` of a single one takes ten times as long.
 
     Each candidate is the quaternion times four times one of its components; the longest one has lost the least to
-    cancellation: S. W.
-    Shepperd, "Quaternion from rotation matrix", Journal of Guidance and Control 1(3), 1978.
+    cancellation: S. W. Shepperd, "Quaternion from rotation matrix", Journal of Guidance and Control 1(3), 1978.
     """
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation
     candidates = (

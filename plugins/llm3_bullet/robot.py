@@ -103,7 +103,7 @@ class RobotDescription:
     tool_link: str
     """The link that carries the tool frame; its z axis points out of the hand, its origin is the tool centre point."""
     home: tuple[float, ...]
-    """A configuration of the arm, in radians, in which it stands free."""
+    """A configuration of the arm in which it stands free, in radians (metres where a joint slides)."""
     fingers: ParallelGripper | None = None
     suction: SuctionGripper | None = None
     """What it holds things with: one of the two."""
@@ -112,11 +112,11 @@ class RobotDescription:
     attachments: tuple[Attachment, ...] = ()
     """What the robot's own URDF file lacks."""
     joint_limits: Mapping[str, tuple[float, float]] = field(default_factory=FrozenDict)
-    """Limits in radians that replace the URDF's, by joint name."""
+    """Limits in radians (metres) that replace the URDF's, by joint name."""
     max_velocity: Mapping[str, float] = field(default_factory=FrozenDict)
-    """Speeds in rad/s that replace the URDF's, by joint name."""
+    """Speeds in rad/s (m/s) that replace the URDF's, by joint name."""
     max_acceleration: Mapping[str, float] = field(default_factory=FrozenDict)
-    """Accelerations in rad/s², by joint name; URDF has none. Joints without one cannot be timed."""
+    """Accelerations in rad/s² (m/s²), by joint name; URDF has none. Joints without one cannot be timed."""
     may_touch: tuple[tuple[str, str], ...] = ()
     """Pairs of links that always touch and are never counted as a collision."""
     mounted_links: tuple[str, ...] = ()

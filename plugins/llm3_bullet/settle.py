@@ -10,7 +10,11 @@ import numpy as np
 
 from llm3.types import Pose
 from llm3_bullet.clients import BulletClient
+from llm3_bullet.poses import as_matrix
 from llm3_bullet.scene import Box
+
+NEARLY = 0.001
+"""Boxes that are this close count as touching, in metres: poses are rounded, and shapes have a margin."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +55,16 @@ class Settler:
         concerned = _within_reach(name, tuple(box for box in boxes if not box.fixed))
         settled = self.settle(box for box in boxes if box.fixed or box.name in concerned)
         return {box.name: settled.get(box.name, box.pose) for box in boxes if not box.fixed}
+
+    def settle_without(self, name: str, boxes: Iterable[Box]) -> dict[str, Pose]:
+        """`settle`, where one box is taken away and the others rest: those that touched it may fall, and so on."""
+        boxes = tuple(boxes)
+        (taken,) = (box for box in boxes if box.name == name)
+        left = tuple(box for box in boxes if box is not taken)
+        movable = tuple(box for box in left if not box.fixed)
+        concerned = set().union(*(_within_reach(box.name, movable) for box in movable if _touch(box, taken)))
+        settled = self.settle(box for box in left if box.fixed or box.name in concerned) if concerned else {}
+        return {box.name: settled.get(box.name, box.pose) for box in movable}
 
     def settle(self, boxes: Iterable[Box]) -> dict[str, Pose]:
         """Let go of the boxes and wait until they rest.
@@ -99,15 +113,29 @@ class Settler:
         return math.hypot(*linear) < settings.linear_speed and math.hypot(*angular) < settings.angular_speed
 
 
+def _touch(one: Box, other: Box) -> bool:
+    """Whether two boxes touch, or nearly so: whether boxes around them, along the world's axes, do."""
+    return all(
+        abs(a - b) <= (c + d) / 2 + NEARLY
+        for a, b, c, d in zip(one.pose.position, other.pose.position, _extent(one), _extent(other), strict=True)
+    )
+
+
+def _extent(box: Box) -> list[float]:
+    extent: list[float] = (np.abs(as_matrix(box.pose)[:3, :3]) @ box.size).tolist()
+    return extent
+
+
 def _within_reach(name: str, boxes: Sequence[Box]) -> set[str]:
-    """The box of this name, those that it could touch if it toppled, those that these could touch, and so on."""
+    """The box of this name, those that it could touch if it toppled or fell, those that these could, and so on."""
     reached = {name}
     spreading = [box for box in boxes if box.name == name]
     while spreading:
         one = spreading.pop()
         for other in boxes:
             apart = math.dist(one.pose.position, other.pose.position)
-            if other.name not in reached and apart <= math.hypot(*one.size) + math.hypot(*other.size):
+            fall = max(0.0, one.pose.position[2] - other.pose.position[2])
+            if other.name not in reached and apart <= math.hypot(*one.size) + math.hypot(*other.size) + fall:
                 reached.add(other.name)
                 spreading.append(other)
     return reached

@@ -127,6 +127,21 @@ def test_what_ends_in_the_gripper_is_a_defect(plan, name, defects):
     assert defects(replace(plan, actions=plan.actions[:1])) == [f"{name} ends in the gripper"]
 
 
+def test_what_one_action_hides_in_its_motion_is_one(solve, defects):
+    """A pick that first carries out the two actions before it."""
+    _, whole = solve(setting="easy-medium", seed=1, timing="none")
+    first, second, third = whole.actions[:3]
+    segments = tuple(segment for step in (first, second, third) for segment in step.motion.segments)
+    merged = replace(third, motion=replace(third.motion, segments=segments))
+    told = defects(replace(whole, actions=(merged,)))
+    (other,) = first.action.objects
+    (name,) = third.action.objects
+    assert told == [
+        f"action 1 {third.action}: the gripper lets go of {other}, and only takes something in a pick",
+        f"{name} ends in the gripper",
+    ]
+
+
 def test_a_waypoint_moved_into_the_table_is_one(plan, defects):
     approach = shifted(plan.actions[0].motion.segments[1], 5, 1, 0.3)  # the shoulder, downwards
     where = f"action 1 {plan.actions[0].action}, approach, waypoint #: "

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from branching_arm import branching_arm
+from branching_arm import JOINTS, branching_arm, urdf
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tool_poses import beyond_the_panda, random_top_down
@@ -71,3 +71,13 @@ def test_a_pose_far_away_is_too_far_for_every_arm(arms, lengths):
         poses = arms[name].tool(arms[name].model.home[None])
         poses[:, :3, 3] += 10.0
         assert length.too_short(poses, 1e-5, 1e-4).all()
+
+
+def test_an_arm_of_one_joint_is_too_short_for_all_that_is_not_on_its_circle(tmp_path):
+    joint = JOINTS.replace('name="j2" type="prismatic"', 'name="j2" type="fixed"')
+    joint = joint.replace('name="j3" type="continuous"', 'name="j3" type="fixed"')
+    one = Kinematics(RobotModel(branching_arm(tmp_path, urdf(joint), arm_joints=("j1",), home=(0.0,), joint_limits={})))
+    length, turns = ArmLength(one), one.tool(np.linspace(one.model.low, one.model.high, 50))
+    assert not length.too_short(turns, 1e-5, 1e-4).any()
+    turns[:, :3, 3] += 0.01
+    assert length.too_short(turns, 1e-5, 1e-4).all()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from random_worlds import random_configurations, random_scene
 
-from llm3_bullet.collision import CollisionChecker
+from llm3_bullet.collision import LIMIT_TOLERANCE, CollisionChecker
 
 ROBOTS = ("panda", "iiwa", "toy")
 CLEARANCES = (0.0, 0.005, -0.0005)
@@ -54,3 +54,19 @@ def test_looks_for_room_are_counted_as_tests(checker):
     view = checker.view(random_scene(checker.kinematics, np.random.default_rng(0), held=False))
     view.uncertain(model.home, model.low, 24, 0.005)
     assert view.checks == 3
+
+
+def test_what_rounding_takes_beyond_a_limit_needs_a_test(checkers):
+    """Both ends are just within the tolerance of the limits, and some samples between them are not."""
+    checker = checkers["iiwa"]
+    view = checker.view(random_scene(checker.kinematics, np.random.default_rng(0), held=False))
+    model = checker.kinematics.model
+    for joint, limits in enumerate(zip(model.low - LIMIT_TOLERANCE, model.high + LIMIT_TOLERANCE, strict=True)):
+        for limit in limits:
+            start, end = model.home.copy(), model.home + 0.3
+            start[joint] = end[joint] = limit
+            end = np.clip(end, model.low - LIMIT_TOLERANCE, model.high + LIMIT_TOLERANCE)
+            for steps in (17, 43, 100):
+                numbers = np.flatnonzero(~view.uncertain(start, end, steps, 0.005))
+                samples = (start * (steps - numbers[:, None]) + end * numbers[:, None]) / steps
+                assert view.valid(samples, 0.005).all()

@@ -49,7 +49,32 @@ def test_a_primitive_shape_is_covered_by_a_box(tmp_path, shape, half):
     low, high = extent(hull_of(tmp_path, shape))
     assert (low <= np.array((0.0, 0.0, 0.05)) - half + 1e-9).all()
     assert (high >= np.array((0.0, 0.0, 0.05)) + half - 1e-9).all()
-    assert np.prod(high - low) < 4 * 8 * np.prod(half)  # the link's inertial frame, and so the box, is tilted
+    assert np.prod(high - low) < 4 * 8 * np.prod(half)  # what PyBullet gives for a cylinder is tilted
+
+
+@pytest.mark.parametrize(
+    ("shape", "half"),
+    [
+        (BOX, (0.1, 0.15, 0.05)),
+        ('<sphere radius="0.1"/>', (0.1,) * 3),
+        ('<capsule radius="0.1" length="0.3"/>', (0.1, 0.1, 0.25)),
+    ],
+)
+def test_a_box_around_a_shape_is_tight_however_the_robot_stands(tmp_path, shape, half):
+    (tmp_path / "arm.urdf").write_text(URDF.replace(BOX, shape))
+    with connect() as client:
+        turned = client.getQuaternionFromEuler((0.3, 0.4, 0.5))
+        hull = link_hull(client, client.loadURDF(str(tmp_path / "arm.urdf"), (1, 2, 3), turned, useFixedBase=True), -1)
+    np.testing.assert_allclose(extent(hull), np.array((0.0, 0.0, 0.05)) + np.outer((-1, 1), half), atol=1e-9)
+
+
+def test_two_shapes_of_a_link_are_covered_by_two_boxes(tmp_path):
+    second = '<collision><origin xyz="0 0 0.3"/><geometry><sphere radius="0.02"/></geometry></collision>'
+    text = URDF.replace(f"<geometry>{BOX}</geometry></collision>", f"<geometry>{BOX}</geometry></collision>{second}")
+    (tmp_path / "arm.urdf").write_text(text)
+    with connect() as client:
+        hull = link_hull(client, client.loadURDF(str(tmp_path / "arm.urdf"), useFixedBase=True), -1)
+    np.testing.assert_allclose(extent(hull), [(-0.1, -0.15, 0.0), (0.1, 0.15, 0.32)], atol=1e-9)
 
 
 def test_a_mesh_gives_its_vertices_in_the_link_s_frame(tmp_path):

@@ -48,6 +48,32 @@ def test_fingers_that_do_not_touch_what_they_take(robot):
     assert found(robot, moved_by(TAKE, loose))[0] == f"{CARRYING}: left is 5.00 mm from box, which it takes"
 
 
+@pytest.mark.parametrize(("extra", "sound"), [(0.0, True), (0.0009, True), (0.0011, False), (0.0039, False)])
+def test_fingers_that_close_less_than_the_box_is_wide(robot, extra, sound):
+    """The rounding of states and waypoints is forgiven, and no more: a box that is not held tight falls."""
+    told = found(robot, moved_by(TAKE, replace(CARRY, events=(gripper(WIDTH + extra), ATTACH))))
+    assert (told == []) is sound
+    assert all(line.endswith(" from box, which it takes") for line in told)
+
+
+@pytest.mark.parametrize("away", [(0.0, 0.0, 0.03), (0.0305, 0.0, 0.0)], ids=["above", "in front"])
+def test_fingers_beside_a_box_do_not_close_on_it(robot, away):
+    """They nearly touch it, but from where they cannot hold it."""
+    place = box_at(0.0)
+    moved = replace(place, position=tuple(a + b for a, b in zip(place.position, away, strict=True)))
+    grasp = Pose(away)
+    step = moved_by(TAKE, replace(CARRY, events=(gripper(0.012), replace(ATTACH, grasp=grasp))))
+    told = lines(robot, (step,), replace(START, poses={"box": moved}), fixed=())
+    assert any(line == f"{CARRYING}: left touches box, which it takes, but does not close on it" for line in told)
+
+
+def test_a_gripper_that_closes_on_nothing_is_sound(robot):
+    """The fingers meet, as they do."""
+    start = replace(START, poses={})
+    step = replace(moved_by(TAKE, replace(CARRY, events=(gripper(0.0),))), state=State({}, CARRY.waypoints[-1]))
+    assert lines(robot, (step,), start, fixed=()) == []
+
+
 def test_fingers_inside_of_what_they_take(robot):
     tight = replace(CARRY, events=(gripper(0.02), ATTACH))
     told = found(robot, moved_by(TAKE, tight))
@@ -112,7 +138,7 @@ CUP_URDF = """
   <joint name="tip_joint" type="fixed"><parent link="tube"/><child link="tip"/><origin xyz="0 0 0.09"/></joint>
 </robot>
 """
-RACK = Box("rack", (0.5, 0.06, 0.02), Pose((0.0, 0.18, 1.08)), fixed=True)
+RACK = Box("rack", (0.5, 0.09, 0.02), Pose((0.0, 0.18, 1.08)), fixed=True)
 """On it lies a long box, whose front end the cup takes from below."""
 LONG = (0.04, 0.14, 0.04)
 

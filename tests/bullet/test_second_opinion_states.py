@@ -10,6 +10,7 @@ from shelf_world import (
     DROP,
     DROPPED,
     GRASP,
+    SHELF,
     START,
     TAKE,
     TAKEN,
@@ -20,6 +21,7 @@ from shelf_world import (
 )
 
 from llm3.types import Held, Pose, State
+from llm3_bullet.scene import Box
 
 
 @pytest.fixture(scope="module")
@@ -87,3 +89,35 @@ def test_a_box_that_moves_although_nothing_is_let_go(robot):
 def test_boxes_that_start_in_one_another_are_told_once(robot):
     start = State({"box": box_at(0.3), "other": box_at(0.33)}, at(0.0))
     assert lines(robot, (), start) == ["box rests 10.00 mm deep in other"]
+
+
+BOARD = (0.314, 0.02, 0.008)
+"""Half as long as the shelf."""
+CANNOT = f"{DROPPED}: box cannot rest there: its centre"
+
+
+def dropped_with(robot, end, *more):
+    """What is told if the shelf ends at this x already, in metres; the box is let go at 0.03 and is 0.04 wide."""
+    board = Box("shelf", BOARD, Pose((end - BOARD[0] / 2, *SHELF.pose.position[1:])), fixed=True)
+    return lines(robot, fixed=(board, *more))
+
+
+@pytest.mark.parametrize(("end", "sound"), [(0.05, True), (0.031, True), (0.02, False), (0.014, False)])
+def test_a_box_that_reaches_over_an_edge_too_far(robot, end, sound):
+    told = dropped_with(robot, end)
+    if sound:
+        assert told == []
+    else:
+        (line,) = told
+        beside = float(line.removeprefix(f"{CANNOT} is ").removesuffix(" mm beside what it touches"))
+        assert abs(beside - (0.03 - end) * 1000) < 5.0
+
+
+def test_a_box_that_only_touches_something_beside_it(robot):
+    post = Box("post", (0.02, 0.02, 0.04), Pose((0.0605, 0.1, 1.09)), fixed=True)
+    assert dropped_with(robot, 0.005, post) == [f"{CANNOT} is 20.0 mm beside what it touches"]
+
+
+def test_a_box_that_only_touches_something_above_it(robot):
+    ceiling = Box("ceiling", (0.04, 0.02, 0.01), Pose((0.03, 0.1, 1.1155)), fixed=True)
+    assert f"{CANNOT} is not over any of what it touches" in dropped_with(robot, 0.005, ceiling)

@@ -172,3 +172,26 @@ def test_a_box_that_a_reached_one_could_reach_is_settled_too(settler):
     row = [Box(name, CUBE, Pose((0.4 + 0.2 * i, 0.0, 0.045))) for i, name in enumerate("abc")]
     settled = settler.settle_around("a", (TABLE, *row))
     assert all(abs(settled[name].position[2] - 0.035) < 2e-4 for name in "abc")
+
+
+def test_a_box_may_fall_upon_one_below_an_edge(settler):
+    """What is let go high up can land farther away than it could topple."""
+    block = Box("block", (0.2, 0.2, 0.3), Pose((0.0, 0.0, 0.15)), fixed=True)
+    falling = Box("a", CUBE, Pose((0.11, 0.0, 0.337)))
+    below = Box("c", CUBE, Pose((0.28, 0.0, 0.035)))
+    boxes = (TABLE, block, falling, below)
+    assert settler.settle_around("a", boxes) == settler.settle(boxes)
+
+
+def test_what_stood_on_a_box_that_is_taken_away_falls(settler):
+    below, above = standing("below", CUBE, 0.5, 0.0), standing("above", CUBE, 0.53, 0.0, base=0.07)
+    far = standing("far", CUBE, 0.5, 0.6)
+    left = settler.settle_without("below", (TABLE, below, above, far))
+    assert set(left) == {"above", "far"}
+    assert left["far"] == far.pose
+    assert abs(left["above"].position[2] - 0.035) < 2e-4
+
+
+def test_where_nothing_touches_it_a_box_is_taken_without_physics(settler):
+    boxes = (TABLE, standing("a", CUBE, 0.5, 0.0), standing("b", CUBE, 0.5, 0.08, base=0.0001))
+    assert settler.settle_without("a", boxes) == {"b": boxes[2].pose}

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from llm3.errors import PluginError
 from llm3.types import Goal, Goals, Stats
 
 numbers = st.lists(st.floats(-3, 3), min_size=1, max_size=6)
@@ -56,5 +57,20 @@ def test_there_must_be_one():
 
 def test_they_must_be_alike():
     goals = Goals(iter((Goal((0.0,)), Goal((0.0, 1.0)))))
-    with pytest.raises(ValueError, match=r"^all goals of a motion problem must have the same number of joint values$"):
+    sentence = (
+        "making goal 1 raised ValueError: all goals of a motion problem must have the same number of joint values"
+    )
+    with pytest.raises(PluginError, match=f"^{sentence}$"):
         len(goals)
+
+
+def test_what_fails_while_goals_are_made_is_the_fault_of_who_makes_them() -> None:
+    def one_and_no_more():
+        yield Goal((0.0,))
+        raise ZeroDivisionError("no more")
+
+    goals = Goals(one_and_no_more())
+    assert goals[0] == Goal((0.0,))
+    for _ in range(2):
+        with pytest.raises(PluginError, match=r"^making goal 1 raised ZeroDivisionError: no more$"):
+            len(goals)

@@ -70,6 +70,12 @@ class PlainArm:
         frame: Frame = self._client.multiplyTransforms(link[4], link[5], grasp.position, grasp.orientation)
         return frame
 
+    def closing_direction(self) -> Array:
+        """In the world, (3,), a unit vector: along which the fingers close; zero without fingers."""
+        gripper = self.description.gripper
+        axis = gripper.closing_axis if isinstance(gripper, ParallelGripper) else (0.0, 0.0, 0.0)
+        return np.asarray(matrix(self.in_hand(Pose((0.0, 0.0, 0.0)))[1]) @ axis)
+
     def rim(self, count: int = 16) -> Array:
         """Points on the rim of a suction cup, in the world, (count, 3); none for a gripper with fingers."""
         gripper = self.description.gripper
@@ -124,12 +130,15 @@ class PlainArm:
         return max(ways[link] + float(radius) for link, radius in zip(self.solid, reach, strict=True))
 
     def _pairs(self, always: Iterable[frozenset[int]]) -> tuple[tuple[int, int], ...]:
-        """Pairs of links that could collide: not one rigid body, not neighbours, and not always in touch."""
+        """Pairs of links that could collide: not one rigid body, not neighbours, not always in touch, not a gripper."""
         ignored = set(always)
         return tuple(
             (a, b)
             for a, b in combinations(self.solid, 2)
-            if frozenset((a, b)) not in ignored and self._anchor(a) != self._anchor(b) and not self._adjacent(a, b)
+            if frozenset((a, b)) not in ignored
+            and not {a, b} <= self.gripper  # which closes on itself
+            and self._anchor(a) != self._anchor(b)
+            and not self._adjacent(a, b)
         )
 
     def _anchor(self, link: int) -> int:

@@ -16,7 +16,9 @@ from llm3_bullet.verification.world import PlainWorld
 JUMP = 0.0005
 """How far a box may seem to jump into the gripper, in metres: the rounding of states and waypoints."""
 GRIP = 0.002
-"""How far a finger or a cup may be from what it takes, or in it, in metres: that, and the margin of the hulls."""
+"""How deep a finger may be in what it takes, and how far from it a cup, in metres: rounding, and the hulls' margin."""
+SQUARELY = 0.9
+"""Cosine of the angle between the closing direction and the way from a finger to what it takes: it may not be less."""
 _OPENING = 1e-9
 
 
@@ -74,13 +76,15 @@ class Gripping:
         """See that both fingers, or the whole rim of the cup, touch a box, and that no part of the gripper is in it."""
         world, arm, tell = self._world, self._world.arm, self._findings.tell
         for link in sorted(arm.gripper):
-            distance = world.distance_to(name, link)
+            distance, way = world.nearest(name, link)
             if distance < -GRIP:
                 tell(
                     f"{arm.link_names[link]} is {-distance * 1000:.2f} mm deep in {name}, which it takes", gap=distance
                 )
-            elif link in arm.fingers and distance > GRIP:
+            elif link in arm.fingers and distance > JUMP:
                 tell(f"{arm.link_names[link]} is {distance * 1000:.2f} mm from {name}, which it takes", gap=distance)
+            elif link in arm.fingers and abs(float(way @ arm.closing_direction())) < SQUARELY:
+                tell(f"{arm.link_names[link]} touches {name}, which it takes, but does not close on it")
         rim = arm.rim()
         if len(rim):
             distances = surface_distance(rim, world.frame(name), world.sizes[name])

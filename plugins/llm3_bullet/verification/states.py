@@ -14,6 +14,9 @@ from llm3_bullet.verification.world import PlainWorld
 SETTLED = 0.005
 """How far a box may come to rest from where it was when one was let go, in metres. A plan in which one slides farther
 works by luck."""
+OVERHANG = 0.006
+"""How far the centre of a box may be from being over what it stands on, in metres: the points that are looked at are
+almost as far apart."""
 ROUNDING = 0.0001
 """Joint values and lengths in states are rounded to this."""
 
@@ -60,6 +63,11 @@ class States:
                 self._findings.tell(
                     f"{name} rests on nothing: the next thing is {at_least}{gap * 1000:.2f} mm away", gap=gap
                 )
+                continue
+            beyond = self._world.overhang(name, (other for other, gap in near.items() if gap <= CONTACT))
+            if beyond > OVERHANG:
+                by = f"is {beyond * 1000:.1f} mm beside" if np.isfinite(beyond) else "is not over any of"
+                self._findings.tell(f"{name} cannot rest there: its centre {by} what it touches", overhang=beyond)
 
     def _check_held(self, state: State) -> None:
         world = self._world

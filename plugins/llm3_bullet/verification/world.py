@@ -17,6 +17,7 @@ from llm3_bullet.scene import Box
 from llm3_bullet.verification.arm import PlainArm
 from llm3_bullet.verification.boxes import CORNERS, Frame, matrix
 from llm3_bullet.verification.look import HORIZON, Look, Pair
+from llm3_bullet.verification.support import overhang
 
 
 class PlainWorld:
@@ -35,12 +36,10 @@ class PlainWorld:
         """
         self._client = client
         self.arm = PlainArm(client, robot)
+        fixed, movable = tuple(fixed), tuple(movable)
         self._fixed = {box.name: self._add(box) for box in fixed}
-        self._boxes: dict[str, int] = {}
-        self.sizes: dict[str, Array] = {}
-        for box in movable:
-            self._boxes[box.name] = self._add(box)
-            self.sizes[box.name] = np.array(box.size)
+        self._boxes = {box.name: self._add(box) for box in movable}
+        self.sizes: dict[str, Array] = {box.name: np.array(box.size) for box in (*fixed, *movable)}
         self.held: str | None = None
         self.grasp = Pose((0.0, 0.0, 0.0))
         self._spared: str | None = None
@@ -113,10 +112,14 @@ class PlainWorld:
         frame: Frame = self._client.getBasePositionAndOrientation(self._boxes[name])
         return frame
 
-    def distance_to(self, name: str, link: int) -> float:
-        """How far a link of the robot is from a box, in metres; negative where it is inside."""
+    def nearest(self, name: str, link: int) -> tuple[float, Array]:
+        """How far a link of the robot is from a box, in metres, negative inside of it; and the way, a unit vector.
+
+        The way is zero where the box is farther than `HORIZON`.
+        """
         rows = self._client.getClosestPoints(self.arm.body, self._boxes[name], HORIZON, link)
-        return min((row[8] for row in rows), default=HORIZON)
+        nearest = min(rows, key=lambda row: row[8], default=None)
+        return (nearest[8], np.array(nearest[7])) if nearest else (HORIZON, np.zeros(3))
 
     def neighbours(self, name: str) -> dict[str, float]:
         """How far a box is from the boxes near it, in metres, by name; negative where it is inside of one."""
@@ -126,6 +129,14 @@ class PlainWorld:
                 for row in self._client.getClosestPoints(self._boxes[name], body, HORIZON):
                     near[other] = min(near.get(other, HORIZON), row[8])
         return near
+
+    def overhang(self, name: str, others: Iterable[str]) -> float:
+        """How far a box's centre is from being over what it touches of these, in metres; see `support.overhang`."""
+        bodies = {**self._fixed, **self._boxes}
+        surroundings = [
+            (self._client.getBasePositionAndOrientation(bodies[other]), self.sizes[other]) for other in others
+        ]
+        return overhang(self.frame(name), self.sizes[name], surroundings)
 
     # ---- what is compared with what -------------------------------------------------------------------
 

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import math
 
 import pytest
 from docs_pages import page, table
@@ -18,11 +19,17 @@ def limits() -> dict[str, str]:
 @pytest.mark.pybullet
 def test_the_limits_are_those_of_the_verifier():
     from llm3_boxpack import verification as boxpack
-    from llm3_bullet.verification import gripping, states, sweep
+    from llm3_bullet.verification import gripping, states, sweep, way
 
     assert {what: text.partition(",")[0] for what, text in limits().items()} == {
         "depth of a contact": f"{sweep.CONTACT * 1000:g} mm",
-        "from a finger or a cup to what it takes": f"{gripping.GRIP * 1000:g} mm",
+        "from a finger to what it takes": f"{gripping.JUMP * 1000:g} mm",
+        "from a cup to what it takes": f"{gripping.GRIP * 1000:g} mm",
+        "from the closing direction to the way from a finger to what it takes": (
+            f"{math.degrees(math.acos(gripping.SQUARELY)):.0f}°"
+        ),
+        "from a trajectory to the straight way between two waypoints, by joint": f"{way.ASIDE:g} rad or m",
+        "from a box's centre to being over what it stands on": f"{states.OVERHANG * 1000:g} mm",
         "jump of what is taken": f"{gripping.JUMP * 1000:g} mm",
         "from where a box is let go to where the action says": f"{boxpack.OFF_PLACE * 1000:g} mm",
         "from where a box is let go to where it comes to rest": f"{states.SETTLED * 1000:g} mm",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -128,13 +129,16 @@ class FreeSpace:
         )
 
 
+@lru_cache(1024)
 def bisection_order(steps: int) -> NDArray[np.int64]:
     """The numbers from 1 to ``steps - 1``, so that every beginning of them is spread over the whole range.
 
-    They come in descending order of the largest power of two that divides them.
+    They come in descending order of the largest power of two that divides them. Not to be written to.
     """
     strides = [1 << k for k in reversed(range(steps.bit_length()))]
-    return np.concatenate([np.arange(stride, steps, 2 * stride) for stride in strides])
+    order = np.concatenate([np.arange(stride, steps, 2 * stride) for stride in strides])
+    order.setflags(write=False)
+    return order
 
 
 def _depth(contacts: Sequence[Contact]) -> float:

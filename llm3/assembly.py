@@ -57,17 +57,31 @@ class RunConfig:
     """What puts times to the plan's motions, or `none`; None is the usual timer where it is installed, else `none`."""
     max_llm_calls: int = 20
     trace_size: int = 5
+    max_reply_tokens: int | None = None
+    """What the model may write in one reply; None leaves it to the model, or to what its server demands."""
+    max_tokens_total: int | None = None
+    """No call is made once so many tokens were read and written; None for no limit."""
+    max_seconds: float | None = None
+    """No call is made after so long, and none takes longer; None for no limit."""
     options: Mapping[str, str] = field(default_factory=FrozenDict)
     """Domain options that differ from their defaults."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "options", FrozenDict(self.options))
-        Budget(self.max_llm_calls, self.trace_size)  # refuses what cannot be
+        self.budget  # noqa: B018  # refuses what cannot be
         PlannerSettings(self.planner_iterations, self.planner_seconds)
         if self.temperature is not None and not 0 <= self.temperature < inf:
             raise UsageError(f"the temperature must be 0 or more, not {self.temperature:g}.")
         if self.model is not None and not self.model.strip():
             raise UsageError("the model's name is empty: name one, or leave out --model.")
+
+        if self.max_reply_tokens is not None and self.max_reply_tokens < 1:
+            raise UsageError(f"the tokens of a reply must be at least 1, not {self.max_reply_tokens}.")
+
+    @property
+    def budget(self) -> Budget:
+        """What the run may spend."""
+        return Budget(self.max_llm_calls, self.trace_size, self.max_tokens_total, self.max_seconds)
 
     @property
     def backend(self) -> str:
@@ -125,7 +139,7 @@ class Run:
             prompt=self.prompt,
             timer=self.timer,
             skeleton=self.skeleton,
-            budget=Budget(config.max_llm_calls, config.trace_size),
+            budget=config.budget,
             seed=config.seed,
             observer=observer,
         )
@@ -257,6 +271,7 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
             argument=argument or None,
             model=config.model,
             temperature=config.temperature,
+            max_reply_tokens=config.max_reply_tokens,
             stand_in=domain.stand_in(),
             skeleton=domain.skeleton(instance) or (),
             regions=domain.regions(instance) or FrozenDict(),

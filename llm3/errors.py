@@ -85,3 +85,14 @@ class MissingDependency(LLM3Error):
 
 class BackendError(LLM3Error):
     """The language model cannot be reached or refuses to answer."""
+
+    def __init__(self, text: str, *, retries: int = 0, step_downs: int = 0) -> None:
+        """Take the sentence, and what was spent in vain.
+
+        Args:
+            text: One line for the user.
+            retries: Requests that led to nothing.
+            step_downs: Requests that were made again with fewer features.
+        """
+        super().__init__(text)
+        self.retries, self.step_downs = retries, step_downs

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from time import perf_counter
 
-from llm3.errors import PluginError, UsageError
+from llm3.errors import BackendError, PluginError, UsageError
 from llm3.guarded import guarded
 from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner, TrajectoryTimer
-from llm3.parsing import parse_reply
+from llm3.parsing import parse_reply, reply_schema
 from llm3.prompts import Prompt
 from llm3.rollout import Roller, Tell
 from llm3.seeding import derive_seed
@@ -19,6 +20,7 @@ from llm3.types import (
     ActionTried,
     Attempt,
     AttemptEnded,
+    CallFailed,
     Completion,
     Context,
     Entity,
@@ -37,6 +39,7 @@ from llm3.types import (
     Sketch,
     State,
     Stats,
+    Stop,
     nobody,
 )
 
@@ -49,12 +52,30 @@ class Budget:
     """The paper's cap on model calls."""
     trace_size: int = 5
     """The paper's k: how many earlier attempts the model is told of."""
+    max_tokens: int | None = None
+    """No call is made once so many tokens were read and written; None for no limit."""
+    max_seconds: float | None = None
+    """No call is made after so long, and none takes longer; None for no limit."""
 
     def __post_init__(self) -> None:
         if self.max_llm_calls < 1:
             raise UsageError(f"the number of model calls must be at least 1, not {self.max_llm_calls}.")
         if self.trace_size < 0:
             raise UsageError(f"the trace size must be 0 or more, not {self.trace_size}.")
+        if self.max_tokens is not None and self.max_tokens < 1:
+            raise UsageError(f"the number of tokens must be at least 1, not {self.max_tokens}.")
+        if self.max_seconds is not None and not 0 < self.max_seconds < inf:
+            raise UsageError(f"the seconds of a run must be more than 0, not {self.max_seconds:g}.")
+
+    def used_up(self, stats: Stats, seconds: float) -> Stop | None:
+        """Which part of it is used up, if any is."""
+        if stats.llm_calls >= self.max_llm_calls:
+            return "calls"
+        if self.max_tokens is not None and stats.tokens >= self.max_tokens:
+            return "tokens"
+        if self.max_seconds is not None and seconds >= self.max_seconds:
+            return "seconds"
+        return None
 
 
 def solve(
@@ -81,7 +102,7 @@ def solve(
         prompt: How the model is asked.
         timer: Puts times to the motions of the plan that is found, if the world knows the limits of all joints.
         skeleton: The given action sequence, where the strategy fixes it.
-        budget: How many model calls, and how much of the past a prompt tells.
+        budget: What the run may spend, and how much of the past a prompt tells.
         seed: All randomness derives from it: the same seed and the same replies give the same run.
         observer: Is told of everything as it happens.
         clock: Seconds, for the times by phase.
@@ -100,6 +121,7 @@ def solve(
     def goal_of(state: State) -> GoalStatus:
         return guarded(env.goal, (GoalStatus,), state)
 
+    began = clock()
     start = guarded(env.reset, (State,))
     observer(RunStarted(start))
     roller = Roller(env, planner, seed, clock)
@@ -107,34 +129,50 @@ def solve(
     attempts: list[Attempt] = []
     goal = goal_of(start)
     plan: tuple[PlannedAction, ...] = ()
-    solved = False
-    while not solved and len(attempts) < budget.max_llm_calls:
+    stop: Stop | None = None
+    while not stop:
         number = len(attempts) + 1
         context = context_of(env, start, trace.entries, skeleton)
-        request = Request(prompt.render(context), context, derive_seed("request", seed, number))
+        request = Request(
+            prompt.render(context),
+            context,
+            derive_seed("request", seed, number),
+            reply_schema(env.schemas, env.objects, skeleton),
+            inf if budget.max_seconds is None else budget.max_seconds - (clock() - began),
+        )
         observer(PromptSent(number, request.messages))
-        began = clock()
-        completion = guarded(backend.complete, (Completion,), request)
-        stats += completion.stats + Stats(llm_calls=1, seconds={"model": clock() - began})
+        asked = clock()
+        try:
+            completion = guarded(backend.complete, (Completion,), request)
+        except BackendError as error:
+            spent = Stats(retries=error.retries, step_downs=error.step_downs, seconds={"model": clock() - asked})
+            stats += spent
+            observer(CallFailed(number, str(error), spent))
+            stop = budget.used_up(stats, clock() - began)
+            if stop:
+                break
+            raise
+        stats += completion.stats + Stats(llm_calls=1, seconds={"model": clock() - asked})
         observer(ReplyReceived(number, completion))
 
-        reading = parse_reply(completion.text, env.schemas, env.objects, skeleton)
+        reading = parse_reply(completion.text, env.schemas, env.objects, skeleton, cut_off=completion.cut_off)
         observer(ReplyRead(number, reading))
         proposal, unreadable = (None, reading) if isinstance(reading, Failure) else (reading, None)
         rolled = roller.rollout(start, proposal.actions if proposal else (), _teller(observer, number))
         goal, plan = goal_of(rolled.state), rolled.plan
         attempt = Attempt(number, goal, proposal, unreadable, rolled.outcomes)
-        solved = goal.achieved
         attempts.append(attempt)
-        words = None if solved else guarded(feedback.synthesize, (Feedback, type(None)), attempt)
+        words = None if goal.achieved else guarded(feedback.synthesize, (Feedback, type(None)), attempt)
         trace = trace.add(attempt, words)
         stats += Stats(unreadable_replies=int(unreadable is not None))
         observer(AttemptEnded(attempt, words, stats + roller.stats))
+        stop = "solved" if goal.achieved else budget.used_up(stats, clock() - began)
+    solved = stop == "solved"
     if solved and timer:
-        began = clock()
+        put = clock()
         plan = timed(plan, timer, env.joints)
-        stats += Stats(seconds={"timing": clock() - began})
-    result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start)
+        stats += Stats(seconds={"timing": clock() - put})
+    result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start, stop)
     observer(RunEnded(result))
     return result
 

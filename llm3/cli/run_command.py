@@ -44,6 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--llm", metavar="NAME", help="the backend (default: offline, which is no language model)")
     add("--model", metavar="NAME", help="the language model; implies --llm http")
     add("--temperature", type=float, metavar="T", help="sent to the model only if given")
+    add("--max-reply-tokens", type=int, metavar="N", help="what the model may write in one reply (default: its own)")
     add(
         "--planner",
         metavar="NAME",
@@ -83,6 +84,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=_DEFAULT.trace_size,
         help=f"how many earlier attempts a prompt tells of (default: {_DEFAULT.trace_size})",
     )
+    add("--max-tokens-total", type=int, metavar="N", help="no call after so many tokens, read and written")
+    add("--max-seconds", type=float, metavar="S", help="no call after so long, and none takes longer")
     add("--out", type=path, metavar="DIR", help="where the record goes (default: a new folder under runs/)")
     add("--force", action="store_true", help="overwrite the record in DIR")
     add("--gui", action="store_true", help="open the domain's window")
@@ -111,6 +114,9 @@ def run(arguments: Namespace, out: TextIO) -> int:
         timing=arguments.timing,
         max_llm_calls=arguments.max_llm_calls,
         trace_size=arguments.trace_size,
+        max_reply_tokens=arguments.max_reply_tokens,
+        max_tokens_total=arguments.max_tokens_total,
+        max_seconds=arguments.max_seconds,
         options=chosen_options(arguments),
     )
     view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
@@ -146,6 +152,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
 def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) -> dict[str, object]:
     return {
         "solved": result.solved,
+        "stop": result.stop,
         "domain": config.domain,
         "setting": config.setting,
         "seed": config.seed,
@@ -157,6 +164,8 @@ def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) ->
         "llm_calls": result.stats.llm_calls,
         "motion_calls": result.stats.motion_calls,
         "reused_actions": result.stats.reused_actions,
+        "prompt_tokens": result.stats.prompt_tokens,
+        "completion_tokens": result.stats.completion_tokens,
         "seconds": round(seconds, 3),
         "plan": [str(step.action) for step in result.plan],
         "out": os.fsencode(folder).decode(errors="replace"),

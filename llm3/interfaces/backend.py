@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from llm3.types import Completion, Context, FrozenDict, Request, Sketch
+from llm3.types import Completion, Context, FrozenDict, Message, Request, Sketch
 
 Regions = Mapping[tuple[str, tuple[str, ...], str], tuple[float, float]]
 """Tighter ranges for random sampling, by (action name, its objects, parameter name)."""
@@ -27,6 +27,8 @@ class BackendSettings:
     model: str | None = None
     temperature: float | None = None
     """None: send no sampling parameter at all."""
+    max_reply_tokens: int | None = None
+    """What the model may write in one reply; None: send no limit unless the server demands one."""
     stand_in: StandIn | None = None
     """The domain's rule-based stand-in, where it has one."""
     skeleton: tuple[Sketch, ...] = ()
@@ -55,6 +57,21 @@ class LLMBackend(ABC):
         Raises:
             BackendError: There is no answer to be had.
         """
+
+    @property
+    def last_words(self) -> str:
+        """One line that the user should read after the run, or nothing."""
+        return ""
+
+    def examine(self) -> str:
+        """Make one tiny call, and say in a line how it went, for ``llm3 doctor``.
+
+        Raises:
+            BackendError: There is no answer to be had; its sentence says what to change.
+        """
+        question = Message("user", 'Answer with this JSON object and nothing else: {"Reasoning": "", "Full Plan": []}')
+        answer = self.complete(Request((question,), Context("", (), (), ())))
+        return f"it answers with {len(answer.text)} characters"
 
     def close(self) -> None:
         """Let go of connections. Calling it twice does no harm."""

@@ -10,5 +10,6 @@ Whatever is wrong becomes a sentence for the model; they all stand in `sentences
 """
 
 from llm3.parsing.reply import parse_reply
+from llm3.parsing.schema import reply_schema
 
-__all__ = ["parse_reply"]
+__all__ = ["parse_reply", "reply_schema"]

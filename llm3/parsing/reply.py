@@ -23,6 +23,8 @@ def parse_reply(
     schemas: Sequence[ActionSchema],
     objects: Sequence[str],
     skeleton: Sequence[Sketch] = (),
+    *,
+    cut_off: bool = False,
 ) -> Proposal | Failure:
     """Read the plan in a model's reply.
 
@@ -35,6 +37,7 @@ def parse_reply(
         schemas: The valid actions, with the ranges of their parameters.
         objects: The names that actions may take.
         skeleton: The given action sequence, where the model chooses the parameters only.
+        cut_off: Whether the reply ends where the model was stopped for its length.
 
     Returns:
         The plan, with a `Rejected` (`INVALID_ACTION`) in the place of each item that is no valid action; or an
@@ -43,10 +46,10 @@ def parse_reply(
     if len(text) > MAX_CHARACTERS:
         return _unreadable(sentences.too_long(len(text), MAX_CHARACTERS))
     if not text.strip():
-        return _unreadable(sentences.EMPTY)
-    found = find_answer(text)
+        return _unreadable(sentences.CUT_OFF if cut_off else sentences.EMPTY)
+    found = find_answer(text, cut_off)
     if found is None:
-        return _unreadable(sentences.NO_PLAN)
+        return _unreadable(sentences.CUT_OFF if cut_off else sentences.NO_PLAN)
     if found.items is None:
         return _unreadable(sentences.PLAN_IS_NO_LIST)
     if len(found.items) > MAX_ACTIONS:

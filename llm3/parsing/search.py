@@ -21,14 +21,15 @@ _END_OF_THOUGHT = re.compile(r"</think(?:ing)?>", re.IGNORECASE)
 _THOUGHT = re.compile(r"\s*<think(?:ing)?>", re.IGNORECASE)
 
 
-def find_answer(text: str) -> Answer | None:
+def find_answer(text: str, cut_off: bool = False) -> Answer | None:
     """The last complete answer in the text, or None if there is none, not even a damaged one.
 
-    Half a surrogate pair becomes a replacement character: no file and no server would take what is read otherwise.
+    Where the text was cut off, a damaged answer is no answer: its plan would lack its end. Half a surrogate pair
+    becomes a replacement character: no file and no server would take what is read otherwise.
     """
     text = _spoken(text.encode("utf-16", "surrogatepass").decode("utf-16", "replace"))
     answer = _best(text)
-    if answer is None or answer.items is None:
+    if not cut_off and (answer is None or answer.items is None):
         answer = _best_of_mended(text) or answer
     return answer
 

@@ -24,9 +24,11 @@ BARE_LIST = 'took a list of actions that is not in the reply\'s "Full Plan"'
 # ---- the reply as a whole ----------------------------------------------------------------------------------------
 
 _FORM = """{"Reasoning": "...", "Full Plan": ["action(['object'], {'parameter': number})", ...]}"""
-EMPTY = f"the reply is empty: write one JSON object of the form {_FORM}"
-NO_PLAN = f"no complete plan can be read from the reply: write one JSON object of the form {_FORM}"
-PLAN_IS_NO_LIST = f"the plan is no list: write one JSON object of the form {_FORM}"
+_WRITE = f"write one JSON object of the form {_FORM}"
+EMPTY = f"the reply is empty: {_WRITE}"
+NO_PLAN = f"no complete plan can be read from the reply: {_WRITE}"
+CUT_OFF = f"the reply was cut off at the length limit before its plan was complete: reason more briefly, and {_WRITE}"
+PLAN_IS_NO_LIST = f"the plan is no list: {_WRITE}"
 
 
 def too_long(length: int, limit: int) -> str:

@@ -16,7 +16,7 @@ from llm3.assembly import Run, RunConfig
 from llm3.errors import LLM3Error
 from llm3.jsonio import dumps, pretty, to_builtins
 from llm3.records.plan import plan_file
-from llm3.types import ActionTried, AttemptEnded, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
+from llm3.types import ActionTried, AttemptEnded, CallFailed, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
 
 RUN_FORMAT = "llm3-run/1"
 EVENTS_FORMAT = "llm3-events/1"
@@ -43,6 +43,8 @@ class RunFile:
     """Whether a wall-clock guard cut something off, so that a second run may differ."""
     seconds: float = 0.0
     error: str = ""
+    stop: str = ""
+    """Why it ended, as `Result.stop` says; empty for a run that did not."""
 
 
 class Recorder:
@@ -83,6 +85,8 @@ class Recorder:
         if isinstance(event, ReplyReceived):  # paid for, even if the run is cut off before the attempt ends
             spent = event.completion.stats + Stats(llm_calls=1)
             self._file = replace(self._file, stats=self._file.stats + spent)
+        elif isinstance(event, CallFailed):
+            self._file = replace(self._file, stats=self._file.stats + event.stats)
         elif isinstance(event, AttemptEnded):
             self._file = replace(self._file, stats=event.stats, unmet=event.attempt.goal.unmet)
         elif isinstance(event, RunEnded):
@@ -94,6 +98,7 @@ class Recorder:
                 stats=result.stats,
                 unmet=result.goal.unmet,
                 time_limited=result.time_limited,
+                stop=result.stop,
             )
             if result.solved:
                 text = pretty(plan_file(self._run.problem, result))
@@ -153,5 +158,5 @@ def _fields(event: RunEvent) -> dict[str, Any]:
     if isinstance(event, ActionTried) and event.outcome.reused:
         return {"attempt": event.attempt, "index": event.index, "outcome": event.outcome}
     if isinstance(event, RunEnded):
-        return {"solved": event.result.solved, "stats": event.result.stats}
+        return {"solved": event.result.solved, "stop": event.result.stop, "stats": event.result.stats}
     return {name: getattr(event, name) for name in event.__dataclass_fields__}

@@ -6,6 +6,7 @@ from llm3.types.dialogue import Completion, Context, Entity, Feedback, Message, 
 from llm3.types.events import (
     ActionTried,
     AttemptEnded,
+    CallFailed,
     Observer,
     PromptSent,
     ReplyRead,
@@ -31,7 +32,7 @@ from llm3.types.motion import (
     Vector,
     Waypoints,
 )
-from llm3.types.results import PlannedAction, Result
+from llm3.types.results import PlannedAction, Result, Stop
 from llm3.types.state import Fact, GoalStatus, Held, Pose, State, Transition
 from llm3.types.stats import Stats
 from llm3.types.trajectory import Trajectory
@@ -44,6 +45,7 @@ __all__ = [
     "ActionTried",
     "Attempt",
     "AttemptEnded",
+    "CallFailed",
     "Completion",
     "Contact",
     "Context",
@@ -86,6 +88,7 @@ __all__ = [
     "Sketch",
     "State",
     "Stats",
+    "Stop",
     "Trajectory",
     "Transition",
     "Vector",

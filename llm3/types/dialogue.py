@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import Any, Literal
 
 import numpy as np
@@ -120,6 +121,10 @@ class Request:
     """What the messages were rendered from: for stand-ins, which cannot read prose. A real model never sees it."""
     seed: int = 0
     """For stand-ins that draw: derived from the run's seed and the number of the call."""
+    schema: Mapping[str, Any] = field(default_factory=FrozenDict)
+    """The JSON schema of the asked-for reply, for servers that can hold a model to one; empty where there is none."""
+    seconds: float = inf
+    """How long the answer may take."""
 
 
 @dataclass(frozen=True)
@@ -132,8 +137,19 @@ class Completion:
     model: str = ""
     """The model as the server names it."""
     finish_reason: str = ""
-    """Why the text ends, as the server says, such as ``"stop"`` or ``"length"``."""
+    """Why the text ends, as the server says, such as ``"stop"``; ``"length"`` where a limit cut it off."""
+    reasoning: str = ""
+    """What the model thought before it answered, where the server tells. It is no part of the answer."""
+    notes: tuple[str, ...] = ()
+    """What it took to get the answer, a line for each retry and each feature that the server refused."""
+
+    @property
+    def cut_off(self) -> bool:
+        """Whether a limit ended it."""
+        return self.finish_reason == "length"
 
     def __post_init__(self) -> None:
         # A server may escape half of a surrogate pair, which no file can hold.
-        object.__setattr__(self, "text", self.text.encode(errors="replace").decode())
+        for name in ("text", "reasoning"):
+            object.__setattr__(self, name, getattr(self, name).encode(errors="replace").decode())
+        object.__setattr__(self, "notes", texts("the notes of a completion", self.notes))

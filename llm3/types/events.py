@@ -37,6 +37,17 @@ class ReplyReceived:
 
 
 @dataclass(frozen=True)
+class CallFailed:
+    """No answer came, and the run ends."""
+
+    attempt: int
+    error: str
+    """The sentence for the user."""
+    stats: Stats
+    """What the call cost all the same."""
+
+
+@dataclass(frozen=True)
 class ReplyRead:
     """The reply was parsed, into a plan or into the reason why there is none."""
 
@@ -76,7 +87,7 @@ class RunEnded:
     result: Result
 
 
-RunEvent = RunStarted | PromptSent | ReplyReceived | ReplyRead | ActionTried | AttemptEnded | RunEnded
+RunEvent = RunStarted | PromptSent | ReplyReceived | CallFailed | ReplyRead | ActionTried | AttemptEnded | RunEnded
 """Anything that an observer is told."""
 Observer = Callable[[RunEvent], None]
 """Is called with each event, in order."""

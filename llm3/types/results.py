@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from llm3.types.actions import Action
 from llm3.types.attempts import Attempt
@@ -20,6 +21,10 @@ class PlannedAction:
     state: State
 
 
+Stop = Literal["solved", "calls", "tokens", "seconds"]
+"""Why a run ends: the goal is reached, or which part of the budget is used up."""
+
+
 @dataclass(frozen=True)
 class Result:
     """The outcome of a run."""
@@ -32,6 +37,8 @@ class Result:
     attempts: tuple[Attempt, ...]
     stats: Stats
     start: State
+    stop: Stop
+    """Why it ended."""
 
     @property
     def time_limited(self) -> bool:

@@ -29,9 +29,15 @@ class Stats:
     time_limited: int = 0
     """Queries that the wall-clock guard cut off: such a run cannot be repeated exactly."""
     prompt_tokens: int = 0
+    """Tokens that the model read, those from a cache included."""
+    cached_tokens: int = 0
+    """Those of them that the server had in a cache, and may charge less for."""
     completion_tokens: int = 0
+    """Tokens that the model wrote, those of its reasoning included."""
+    reasoning_tokens: int = 0
+    """Those of them that it thought before it answered."""
     retries: int = 0
-    """Requests to a server beyond the first one of a call."""
+    """Requests to a server that led to nothing: those that were made again, and the last one of a call that failed."""
     step_downs: int = 0
     """Requests made again with fewer features, because the server refused one."""
     seconds: Mapping[str, float] = field(default_factory=FrozenDict)
@@ -39,6 +45,11 @@ class Stats:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seconds", FrozenDict(self.seconds))
+
+    @property
+    def tokens(self) -> int:
+        """All tokens, read and written."""
+        return self.prompt_tokens + self.completion_tokens
 
     def __add__(self, other: Stats) -> Stats:
         seconds = dict(self.seconds)

@@ -9,7 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 RUN_FLAGS = (
-    "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, --model, "
+    "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, "
+    "--max-reply-tokens, --max-seconds, --max-tokens-total, --model, "
     "--out, --planner, --planner-iterations, --planner-seconds, --quiet, "
     "--seed, --setting, --strategy, --temperature, --timing, --trace-size, --version, -D, -h"
 )

@@ -21,10 +21,12 @@ from line_world import (
 
 from llm3 import Budget, LLMBackend
 from llm3.errors import BackendError, PluginError, UsageError
+from llm3.parsing import reply_schema
 from llm3.testing import ScriptedLLM
 from llm3.types import (
     ActionTried,
     AttemptEnded,
+    CallFailed,
     Completion,
     FailureKind,
     PromptSent,
@@ -135,12 +137,62 @@ def test_the_budget_of_the_paper_is_the_default():
     [
         ({"max_llm_calls": 0}, "the number of model calls must be at least 1, not 0."),
         ({"trace_size": -1}, "the trace size must be 0 or more, not -1."),
+        ({"max_tokens": 0}, "the number of tokens must be at least 1, not 0."),
+        ({"max_seconds": 0.0}, "the seconds of a run must be more than 0, not 0."),
+        ({"max_seconds": float("nan")}, "the seconds of a run must be more than 0, not nan."),
     ],
 )
 def test_a_budget_without_sense_is_refused(arguments, sentence):
     with pytest.raises(UsageError) as caught:
         Budget(**arguments)
     assert str(caught.value) == sentence
+
+
+def test_a_run_says_why_it_ended():
+    assert play(ARRIVE).stop == "solved"
+    assert play(reply(go(1)), budget=Budget(max_llm_calls=1)).stop == "calls"
+
+
+def test_no_call_is_made_once_the_tokens_are_used_up():
+    spent = Stats(prompt_tokens=70, completion_tokens=30, reasoning_tokens=20, cached_tokens=60)
+    model = ScriptedLLM(lambda request: Completion(reply(go(1)), spent))
+    result = play(backend=model, budget=Budget(max_tokens=201))
+    assert (result.stop, result.stats.tokens, result.stats.llm_calls) == ("tokens", 300, 3)
+    assert play(backend=model, budget=Budget(max_tokens=200)).stats.llm_calls == 2
+
+
+def test_no_call_is_made_once_the_time_is_used_up():
+    """The clock ticks once for each look."""
+    result = play(
+        backend=ScriptedLLM(lambda request: reply(go(1))), budget=Budget(max_seconds=20), clock=TickingClock()
+    )
+    assert result.stop == "seconds"
+    assert 1 < result.stats.llm_calls < 20
+
+
+def test_a_call_may_take_what_is_left_of_the_time():
+    model = ScriptedLLM(lambda request: reply(go(1)))
+    play(backend=model, budget=Budget(max_seconds=20), clock=TickingClock())
+    left = [request.seconds for request in model.requests]
+    assert left == sorted(left, reverse=True)
+    assert 0 < left[-1] < left[0] < 20
+    play(backend=model, budget=Budget(max_llm_calls=1))
+    assert model.requests[-1].seconds == float("inf")
+
+
+def test_a_call_that_fails_for_lack_of_time_ends_the_run_by_its_budget():
+    clock, events = TickingClock(), []
+
+    def too_slow(request):
+        for _ in range(20):
+            clock()
+        return BackendError("no answer in time.", retries=3, step_downs=1)
+
+    result = play(backend=ScriptedLLM(too_slow), budget=Budget(max_seconds=20), clock=clock, observer=events.append)
+    assert (result.stop, result.attempts) == ("seconds", ())
+    assert (result.stats.llm_calls, result.stats.retries, result.stats.step_downs) == (0, 3, 1)
+    (failed,) = (event for event in events if isinstance(event, CallFailed))
+    assert (failed.attempt, failed.error, failed.stats.retries) == (1, "no answer in time.", 3)
 
 
 def test_the_run_ends_with_the_first_plan_that_reaches_the_goal():
@@ -335,10 +387,31 @@ def test_an_observer_hears_of_a_prompt_before_the_model_does():
 # ---- what goes wrong with the program ------------------------------------------------------------------------------
 
 
-def test_an_error_of_the_backend_passes_through():
+def test_an_error_of_the_backend_passes_through_and_is_told():
+    events = []
     with pytest.raises(BackendError) as caught:
-        play(reply(go(1)), BackendError("no server answers."))
+        play(reply(go(1)), BackendError("no server answers.", retries=2), observer=events.append)
     assert str(caught.value) == "no server answers."
+    assert isinstance(events[-1], CallFailed)
+    assert (events[-1].attempt, events[-1].error, events[-1].stats.retries) == (2, "no server answers.", 2)
+
+
+def test_a_reply_that_was_cut_off_is_told_apart_from_one_that_makes_no_sense():
+    begun = '{"Reasoning": "First I'
+    result = play(Completion(begun, finish_reason="length"), begun, budget=Budget(2))
+    cut, senseless = (attempt.failure.detail for attempt in result.attempts)
+    assert cut.startswith("the reply was cut off at the length limit before its plan was complete: ")
+    assert senseless.startswith("no complete plan can be read from the reply: ")
+
+
+def test_a_plan_that_is_complete_is_read_also_where_the_reply_was_cut_off():
+    assert play(Completion(f"{ARRIVE} And now I", finish_reason="length")).solved
+
+
+def test_a_request_holds_the_schema_of_the_reply():
+    model = ScriptedLLM([ARRIVE])
+    play(backend=model)
+    assert model.requests[0].schema == reply_schema(Line().schemas, Line().objects)
 
 
 def test_running_out_of_replies_is_an_error():

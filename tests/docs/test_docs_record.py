@@ -61,6 +61,9 @@ def test_a_run_writes_the_documented_files_and_events(corridor, capsys):
     assert {file.name for file in folder.iterdir()} == set(table(page("record"), FILES).names)
     first, *lines = [json.loads(line) for line in (folder / "events.jsonl").read_text().splitlines()]
     assert json.dumps(first, separators=(",", ":")) in page("record")
+    (corridor / "none.json").write_text("[]")
+    assert main(["--domain", "corridor", "--llm", "scripted:none.json", "--out", "failed", "--quiet"]) == 3
+    lines += [json.loads(line) for line in (corridor / "failed" / "events.jsonl").read_text().splitlines()[1:]]
     written = {line["event"]: set(line) - {"event", "time"} for line in lines}
     assert written == {row[0].strip("`"): set(names(row[1])) for row in table(page("record"), EVENTS).rows}
 

@@ -5,6 +5,7 @@ import json
 import pytest
 from parsing_world import PLAN_TEXTS, complaint, fault, parse, read_one, reply
 
+from llm3.parsing import parse_reply
 from llm3.types import Action
 
 FORM = """{"Reasoning": "...", "Full Plan": ["action(['object'], {'parameter': number})", ...]}"""
@@ -12,6 +13,15 @@ FORMS = (
     "pick(['box'], {}) or place(['box'], {'x': number, 'y': number, 'theta': number})"
     " or stack(['upper box', 'lower box'], {'ratio': number}) or wait([], {})"
 )
+
+
+@pytest.mark.parametrize("text", ["", '{"Reasoning": "', '{"Full Plan": ["wait()", "pi'])
+def test_a_reply_that_was_cut_off_is_said_to_be(text):
+    failure = parse_reply(text, (), (), cut_off=True)
+    assert failure.detail == (
+        "the reply was cut off at the length limit before its plan was complete: reason more briefly, and write one "
+        f"JSON object of the form {FORM}"
+    )
 
 
 @pytest.mark.parametrize(

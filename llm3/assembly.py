@@ -88,6 +88,12 @@ class RunConfig:
         """The backend that is meant: ``http`` for a model, ``offline`` without one."""
         return self.llm or ("offline" if self.model is None else "http")
 
+    @property
+    def run_name(self) -> str:
+        """The problem and the method, such as ``boxpack/hard-small/0/backtrack/categorized``."""
+        setting = "instance" if self.setting is None else self.setting
+        return f"{self.domain}/{setting}/{self.seed}/{self.strategy}/{self.feedback}"
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -275,6 +281,7 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
             stand_in=domain.stand_in(),
             skeleton=domain.skeleton(instance) or (),
             regions=domain.regions(instance) or FrozenDict(),
+            run=config.run_name,
         ),
     )
     try:

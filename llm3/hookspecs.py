@@ -24,6 +24,7 @@ from llm3.interfaces import (
     Domain,
     FeedbackSynthesizer,
     LLMBackend,
+    ModelSource,
     MotionPlanner,
     PlannerSettings,
     Strategy,
@@ -65,3 +66,11 @@ def llm3_strategies() -> Mapping[str, Callable[[], Strategy]]:  # type: ignore[e
 @hookspec
 def llm3_timers() -> Mapping[str, Callable[[], TrajectoryTimer]]:  # type: ignore[empty-body]  # a specification only
     """Timers, for ``--timing NAME``: they put times to the paths of a plan."""
+
+
+@hookspec
+def llm3_model_sources() -> Mapping[str, Callable[[Mapping[str, str]], tuple[ModelSource, ...]]]:  # type: ignore[empty-body]  # a specification only
+    """Where models can be had, for ``llm3 models``, by the name of the backend that asks them.
+
+    The factory takes the environment variables.
+    """

@@ -16,6 +16,7 @@ from llm3.interfaces import (
     Domain,
     FeedbackSynthesizer,
     LLMBackend,
+    ModelSource,
     MotionPlanner,
     PlannerSettings,
     Strategy,
@@ -30,6 +31,7 @@ HOOKS = {
     "planner": "llm3_planners",
     "timer": "llm3_timers",
     "backend": "llm3_backends",
+    "model source": "llm3_model_sources",
 }
 """The hook that brings each kind of thing."""
 
@@ -205,6 +207,27 @@ class Registry:
     def backend(self, name: str, settings: BackendSettings | None = None) -> LLMBackend:
         """The model backend of this name; raises like :meth:`domain`."""
         return self._make(LLMBackend, "backend", name, settings or BackendSettings())  # type: ignore[type-abstract]  # as above
+
+    def model_sources(self, environment: Mapping[str, str]) -> tuple[ModelSource, ...]:
+        """Where models can be had, of all plugins, by name.
+
+        Args:
+            environment: The environment variables.
+
+        Raises:
+            PluginError: A plugin answered something else.
+            LLM3Error: A plugin cannot read what the user gave it, such as a file.
+        """
+        found: list[ModelSource] = []
+        for registration in self.registrations("model source"):
+            made = _made(registration, (environment,))
+            if not isinstance(made, tuple) or not all(isinstance(source, ModelSource) for source in made):
+                raise PluginError(
+                    f"{registration.plugin}: model source {registration.name!r} must answer a tuple of ModelSource, "
+                    f"not {made!r}."
+                )
+            found += made
+        return tuple(sorted(found, key=lambda source: source.name))
 
 
 def _made(registration: Registration, arguments: tuple[Any, ...]) -> Any:

@@ -10,7 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 CORRIDOR = Path(__file__).parent / "third_party" / "llm3_corridor"
-FOREIGN = ("LLM3_", "OPENAI_", "PYTHONWARNINGS", "COLUMNS", "LINES", "TERM", "NO_COLOR", "FORCE_COLOR", "TTY_")
+FOREIGN = (
+    "LLM3_",
+    "OPENAI_",
+    "ANTHROPIC_",
+    "GEMINI_",
+    "OPENROUTER_",
+    "PYTHONWARNINGS",
+    "COLUMNS",
+    "LINES",
+    "TERM",
+    "NO_COLOR",
+    "FORCE_COLOR",
+    "TTY_",
+)
 """Variables, by how they begin, that would let this machine's habits into the tests."""
 
 

@@ -23,6 +23,8 @@ COMMANDS = {
     "prompt": "print what a model would be sent first, without sending it",
     "instance": "write a problem to a file, for --instance",
     "verify": "check a plan again, in a fresh world and without a model",
+    "models": "show where models can be had, and which keys are set",
+    "doctor": "make one tiny call to a model, and say what is wrong",
     "list": "show every plugin, where it comes from, and what failed to load",
 }
 INTERRUPTED, TERMINATED = 130, 143

@@ -79,7 +79,7 @@ def chosen_options(arguments: Namespace) -> dict[str, str]:
         UsageError: One was set twice.
     """
     options: dict[str, str] = {}
-    for key, value in arguments.options:
+    for key, value in arguments.options or ():
         if key in options:
             raise UsageError(f"-D {key} is given twice: {key}={options[key]} and {key}={value}.")
         options[key] = value

@@ -4,26 +4,26 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
+from contextlib import ExitStack
 from datetime import datetime
 from pathlib import Path
 from typing import TextIO
 
-from llm3.assembly import RunConfig, assemble
+from llm3.assembly import RunConfig
+from llm3.cli.configuration import CONFIGURATION, assembled
 from llm3.cli.problem_arguments import (
     add_problem_arguments,
     add_prompt_arguments,
     add_world_arguments,
-    chosen_domain,
-    chosen_options,
-    loaded_instance,
     path,
 )
 from llm3.cli.text import emit
 from llm3.jsonio import dumps
-from llm3.records import Recorder, create_default_folder, create_folder
+from llm3.prices import read_prices
+from llm3.records import CassetteRecorder, Recorder, check_cassette, create_default_folder, create_folder
 from llm3.registry import Registry
 from llm3.timing import unknown_limits
-from llm3.types import Result, RunEvent
+from llm3.types import Observer, Result, RunEvent, nobody
 
 _DEFAULT = RunConfig(domain="")
 
@@ -86,42 +86,29 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add("--max-tokens-total", type=int, metavar="N", help="no call after so many tokens, read and written")
     add("--max-seconds", type=float, metavar="S", help="no call after so long, and none takes longer")
+    add(
+        "--record", type=path, metavar="FILE", help="keep every exchange with the model in a new file, for --llm replay"
+    )
+    add("--prices", type=path, metavar="FILE", help="what the model's tokens cost, to tell what the run did")
     add("--out", type=path, metavar="DIR", help="where the record goes (default: a new folder under runs/)")
-    add("--force", action="store_true", help="overwrite the record in DIR")
+    add("--force", action="store_true", help="overwrite the record in DIR, and FILE")
     add("--gui", action="store_true", help="open the domain's window")
     add("--json", action="store_true", help="print one JSON object instead of the plan")
     add("--quiet", action="store_true", help="no progress on stderr")
+    parser.set_defaults(**dict.fromkeys(CONFIGURATION))  # a flag that is not given says nothing
 
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command: 0 solved, 1 not solved."""
     from llm3.cli.view import RunView  # rich takes a while to import
 
+    if arguments.record:
+        check_cassette(arguments.record, arguments.force)
+    prices = read_prices(arguments.prices) if arguments.prices else {}
     registry = Registry.discover()
-    domain = chosen_domain(registry, arguments)
-    config = RunConfig(
-        domain=arguments.domain,
-        setting=arguments.setting,
-        seed=arguments.seed,
-        strategy=arguments.strategy,
-        feedback=arguments.feedback,
-        llm=arguments.llm,
-        model=arguments.model,
-        temperature=arguments.temperature,
-        planner=arguments.planner,
-        planner_iterations=arguments.planner_iterations,
-        planner_seconds=arguments.planner_seconds,
-        timing=arguments.timing,
-        max_llm_calls=arguments.max_llm_calls,
-        trace_size=arguments.trace_size,
-        max_reply_tokens=arguments.max_reply_tokens,
-        max_tokens_total=arguments.max_tokens_total,
-        max_seconds=arguments.max_seconds,
-        options=chosen_options(arguments),
-    )
-    view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
-    with assemble(registry, config, loaded_instance(domain, arguments), arguments.gui) as ready:
+    with assembled(registry, arguments) as ready:
         config = ready.config
+        view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
         name = f"{config.domain}-{config.setting or 'instance'}-{config.seed}"
         if arguments.out:
             folder = create_folder(arguments.out, arguments.force)
@@ -134,22 +121,32 @@ def run(arguments: Namespace, out: TextIO) -> int:
         reason = unknown_limits(ready.problem.env.joints) if ready.timer else ""
         if reason and (arguments.timing or ready.problem.env.joints):
             view.note(f"the plan will have no times: {reason}.")
-        with Recorder(folder, ready) as record, view:
+        with ExitStack() as stack:
+            tape: Observer = nobody
+            if arguments.record:
+                tape = stack.enter_context(CassetteRecorder(arguments.record, ready, arguments.force))
+            record = stack.enter_context(Recorder(folder, ready))
+            stack.enter_context(view)
 
             def observe(event: RunEvent) -> None:
                 record(event)
+                tape(event)
                 view(event)
 
             result = ready.solve(observe)
-        view.summary(result, record.seconds, folder)
+        price = prices.get(config.model or "")
+        cost = price.of(result.stats) if price else None
+        view.summary(result, record.seconds, folder, cost)
+        if ready.backend.last_words:
+            view.note(ready.backend.last_words)
         if arguments.json:
-            emit(dumps(_summary(config, result, record.seconds, folder)) + "\n", out)
+            emit(dumps(_summary(config, result, record.seconds, folder, cost)) + "\n", out)
         else:
             emit("".join(f"{step.action}\n" for step in result.plan), out)
         return 0 if result.solved else 1
 
 
-def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) -> dict[str, object]:
+def _summary(config: RunConfig, result: Result, seconds: float, folder: Path, cost: float | None) -> dict[str, object]:
     return {
         "solved": result.solved,
         "stop": result.stop,
@@ -166,6 +163,7 @@ def _summary(config: RunConfig, result: Result, seconds: float, folder: Path) ->
         "reused_actions": result.stats.reused_actions,
         "prompt_tokens": result.stats.prompt_tokens,
         "completion_tokens": result.stats.completion_tokens,
+        "cost": cost,
         "seconds": round(seconds, 3),
         "plan": [str(step.action) for step in result.plan],
         "out": os.fsencode(folder).decode(errors="replace"),

@@ -77,8 +77,8 @@ class RunView:
         elif isinstance(event, AttemptEnded) and event.attempt.failure is None and not event.attempt.goal.achieved:
             self._line(f"    goal not reached: {'; '.join(event.attempt.goal.unmet)}", "red")
 
-    def summary(self, result: Result, seconds: float, folder: Path) -> None:
-        """Show how the run ended, what it took, and where the record is."""
+    def summary(self, result: Result, seconds: float, folder: Path, cost: float | None = None) -> None:
+        """Show how the run ended, what it took and, if known, what it cost, and where the record is."""
         stats = result.stats
         word, style = ("solved", "bold green") if result.solved else ("not solved", "bold red")
         self._line(
@@ -86,6 +86,11 @@ class RunView:
             f"{_count(stats.motion_calls, 'motion call')}, {_count(stats.reused_actions, 'action')} reused",
             style,
         )
+        if stats.tokens:
+            told = f"{stats.prompt_tokens:,} tokens read, {stats.completion_tokens:,} written"
+            self._line(told if cost is None else f"{told}: {cost:.4g} by the price table")
+        if result.stop in ("tokens", "seconds"):
+            self._line(f"the budget of {result.stop} is used up", "yellow")
         if result.time_limited:
             self._line("the time limit of a query was hit: another run may end differently", "yellow")
         self._line(f"record: {folder}")

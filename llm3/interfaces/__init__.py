@@ -5,6 +5,7 @@ from llm3.interfaces.domain import Domain, Option, Options
 from llm3.interfaces.env import Env, Joint
 from llm3.interfaces.feedback import FeedbackSynthesizer
 from llm3.interfaces.free_space import FreeSpace
+from llm3.interfaces.model_source import ModelSource
 from llm3.interfaces.planner import MotionPlanner, PlannerSettings
 from llm3.interfaces.strategy import Strategy
 from llm3.interfaces.timing import TrajectoryTimer
@@ -18,6 +19,7 @@ __all__ = [
     "FreeSpace",
     "Joint",
     "LLMBackend",
+    "ModelSource",
     "MotionPlanner",
     "Option",
     "Options",

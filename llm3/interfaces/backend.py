@@ -35,6 +35,8 @@ class BackendSettings:
     """The domain's action sequence, where it has one."""
     regions: Regions = field(default_factory=FrozenDict)
     """The domain's sampling regions, where it has them."""
+    run: str = ""
+    """The problem and the method, such as ``boxpack/hard-small/0/backtrack/categorized``, for recordings."""
 
 
 class LLMBackend(ABC):

@@ -3,48 +3,21 @@
 from __future__ import annotations
 
 import os
-import platform
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
-from importlib import metadata
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 from types import TracebackType
-from typing import Any, Literal
+from typing import Literal
 
-from llm3.assembly import Run, RunConfig
+from llm3.assembly import Run
 from llm3.errors import LLM3Error
-from llm3.jsonio import dumps, pretty, to_builtins
+from llm3.jsonio import pretty
+from llm3.records.event_lines import EVENTS_FORMAT, fields_of
+from llm3.records.json_lines import LineWriter
 from llm3.records.plan import plan_file
-from llm3.types import ActionTried, AttemptEnded, CallFailed, FrozenDict, ReplyReceived, RunEnded, RunEvent, Stats
-
-RUN_FORMAT = "llm3-run/1"
-EVENTS_FORMAT = "llm3-events/1"
-VERSIONED = ("llm3", "numpy", "scipy", "pybullet", "ompl", "toppra")
-
-
-@dataclass(frozen=True)
-class RunFile:
-    """run.json: what was asked, with which versions, and what came of it."""
-
-    format: str
-    status: Literal["running", "solved", "not solved", "interrupted", "error"]
-    config: RunConfig
-    language_model: bool
-    """False where no language model was used."""
-    notice: str
-    """What the backend has to say about itself."""
-    instance: Any
-    versions: Mapping[str, str]
-    stats: Stats = field(default=Stats())
-    unmet: tuple[str, ...] = ()
-    """What of the goal is missing."""
-    time_limited: bool = False
-    """Whether a wall-clock guard cut something off, so that a second run may differ."""
-    seconds: float = 0.0
-    error: str = ""
-    stop: str = ""
-    """Why it ended, as `Result.stop` says; empty for a run that did not."""
+from llm3.records.run_file import run_file
+from llm3.types import AttemptEnded, CallFailed, ReplyReceived, RunEnded, RunEvent, Stats
 
 
 class Recorder:
@@ -63,25 +36,22 @@ class Recorder:
         """
         self.folder = folder
         self._run, self._clock, self._began = run, clock, clock()
-        self._file = RunFile(
-            RUN_FORMAT,
-            "running",
-            run.config,
-            run.backend.is_language_model,
-            run.backend.notice,
-            to_builtins(run.problem.instance),
-            versions(),
-        )
-        self._write()
-        self._events = (folder / "events.jsonl").open("w", encoding="utf-8")
-        self._line({"format": EVENTS_FORMAT})
+        self._file = run_file(run)
+        self._events = LineWriter(folder / "events.jsonl", EVENTS_FORMAT)
+        try:
+            self._write_run()
+        except BaseException:
+            self._events.close()
+            raise
 
     def __enter__(self) -> Recorder:
         return self
 
     def __call__(self, event: RunEvent) -> None:
         """Note one event."""
-        self._line({"event": type(event).__name__, "time": round(self.seconds, 3), **_fields(event)})
+        if isinstance(event, RunEnded) and event.result.solved:  # before the line that promises a plan
+            self._write("plan.json", pretty(plan_file(self._run.problem, event.result)))
+        self._events.write({"event": type(event).__name__, "time": round(self.seconds, 3), **fields_of(event)})
         if isinstance(event, ReplyReceived):  # paid for, even if the run is cut off before the attempt ends
             spent = event.completion.stats + Stats(llm_calls=1)
             self._file = replace(self._file, stats=self._file.stats + spent)
@@ -100,9 +70,6 @@ class Recorder:
                 time_limited=result.time_limited,
                 stop=result.stop,
             )
-            if result.solved:
-                text = pretty(plan_file(self._run.problem, result))
-                (self.folder / "plan.json").write_text(text, encoding="utf-8")
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
@@ -113,50 +80,21 @@ class Recorder:
             self._file = replace(self._file, status="error", error=str(error))
         elif error is not None:
             self._file = replace(self._file, status="error", error=f"{type(error).__name__}: {error}")
-        self._write()
         self._events.close()
+        self._write_run()
 
     @property
     def seconds(self) -> float:
         """Seconds since the record began."""
         return self._clock() - self._began
 
-    def _write(self) -> None:
+    def _write_run(self) -> None:
         self._file = replace(self._file, seconds=round(self.seconds, 3))
+        self._write("run.json", pretty(self._file))
+
+    def _write(self, name: str, text: str) -> None:
         # Written beside and moved into place: a run that is killed leaves the old file or the new one.
-        beside = self.folder / f"run.json.{os.getpid()}.new"
+        beside = self.folder / f"{name}.{os.getpid()}.new"
         with beside.open("x", encoding="utf-8") as file:
-            file.write(pretty(self._file))
-        beside.replace(self.folder / "run.json")
-
-    def _line(self, data: Mapping[str, Any]) -> None:
-        self._events.write(dumps(data) + "\n")
-        self._events.flush()
-
-
-def versions() -> Mapping[str, str]:
-    """The versions that a result may depend on."""
-    found = {"python": platform.python_version(), "platform": platform.platform()}
-    for name in VERSIONED:
-        try:
-            found[name] = metadata.version(name)
-        except metadata.PackageNotFoundError:
-            found[name] = "not installed"
-    return FrozenDict(found)
-
-
-def _fields(event: RunEvent) -> dict[str, Any]:
-    """The fields of an event, without what earlier lines have said already."""
-    if isinstance(event, AttemptEnded):
-        attempt = event.attempt
-        return {
-            "attempt": attempt.number,
-            "goal": attempt.goal,
-            "feedback": event.feedback,
-            "stats": event.stats,
-        }
-    if isinstance(event, ActionTried) and event.outcome.reused:
-        return {"attempt": event.attempt, "index": event.index, "outcome": event.outcome}
-    if isinstance(event, RunEnded):
-        return {"solved": event.result.solved, "stop": event.result.stop, "stats": event.result.stats}
-    return {name: getattr(event, name) for name in event.__dataclass_fields__}
+            file.write(text)
+        beside.replace(self.folder / name)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
+import numpy as np
+
 from llm3.errors import BackendError
-from llm3.interfaces import LLMBackend
+from llm3.interfaces import LLMBackend, StandIn
 from llm3.types import Completion, Request
 
 Reply = str | Completion | BaseException
@@ -65,3 +67,8 @@ class ScriptedLLM(LLMBackend):
         if isinstance(reply, BaseException):
             raise reply
         return reply if isinstance(reply, Completion) else Completion(reply)
+
+
+def stand_in_script(stand_in: StandIn) -> Callable[[Request], str]:
+    """The script in which a domain's rule-based stand-in answers, as `Domain.stand_in` gives it."""
+    return lambda request: stand_in(request.context, np.random.default_rng(request.seed))

@@ -150,7 +150,9 @@ class _Search:
         above = option.tool.copy()
         above[2, 3] += self._settings.height
         poses = line_poses(option.tool, above, self._settings.spacing)
-        free_at_bottom = views.down.valid(bottoms, allowed) & views.up.valid(bottoms, allowed)
+        free_at_bottom = views.down.valid(bottoms, allowed)
+        if free_at_bottom.any():
+            free_at_bottom[free_at_bottom] = views.up.valid(bottoms[free_at_bottom], allowed)
         for bottom, free in zip(bottoms, free_at_bottom, strict=True):
             if not free:
                 self._blocked.append(_Blocked(bottom, views[:2], allowed))

@@ -1,1 +1,1 @@
-"""Language models over HTTP, by the chat completions interface that OpenAI, Ollama, vLLM and others share."""
+"""Language models over HTTP: OpenAI's chat completions, which many servers speak, and Anthropic's Messages API."""

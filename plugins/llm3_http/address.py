@@ -9,11 +9,15 @@ from llm3.errors import UsageError
 from llm3_http.secret import MASK
 from llm3_http.wording import cut
 
-OPENAI = "https://api.openai.com/v1"
+_PORTS = {"http": 80, "https": 443}
 
 
-def checked_address(url: str) -> str:
+def checked_address(url: str, source: str) -> str:
     """The base address of an API, without a slash at its end.
+
+    Args:
+        url: The address.
+        source: Where it stands, for the error.
 
     Raises:
         UsageError: It is no http or https address, or it holds more than scheme, host, port and path.
@@ -25,18 +29,22 @@ def checked_address(url: str) -> str:
         usable = False
     # Parsers differ on what these characters mean, so the host that is checked might not be the host that is asked.
     if not usable or not url.isascii() or not url.isprintable() or re.search(r"[\s\\]", url):
-        raise UsageError(_refusal(url, "be an http:// or https:// address, such as http://127.0.0.1:11434/v1"))
+        raise UsageError(_refusal(source, url, "be an http:// or https:// address, such as http://127.0.0.1:11434/v1"))
     if "@" in parts.netloc:
-        raise UsageError(_refusal(url, "hold no user name and no password: give the key in LLM3_API_KEY"))
+        raise UsageError(_refusal(source, url, "hold no user name and no password: give the key in LLM3_API_KEY"))
     if "?" in url or "#" in url:
-        raise UsageError(_refusal(url, "have no query and no fragment: give the key in LLM3_API_KEY"))
+        raise UsageError(_refusal(source, url, "have no query and no fragment: give the key in LLM3_API_KEY"))
     return url.rstrip("/")
 
 
-def is_openai(url: str) -> bool:
-    """Whether this is OpenAI's own address, over TLS."""
-    parts = urlsplit(url)
-    return parts.scheme == "https" and parts.hostname == "api.openai.com" and parts.port in (None, 443)
+def same_address(one: str, other: str) -> bool:
+    """Whether two checked addresses lead to the same place: scheme, host, port and path."""
+
+    def place(url: str) -> tuple[object, ...]:
+        parts = urlsplit(url)
+        return parts.scheme, parts.hostname, parts.port or _PORTS[parts.scheme], parts.path
+
+    return place(one) == place(other)
 
 
 def masked(url: str) -> str:
@@ -46,5 +54,5 @@ def masked(url: str) -> str:
     return re.sub(r"([?#]).*", rf"\1{MASK}", without_user, flags=re.DOTALL)
 
 
-def _refusal(url: str, demand: str) -> str:
-    return f"LLM3_BASE_URL is {cut(repr(masked(url)))}, but must {demand}"
+def _refusal(source: str, url: str, demand: str) -> str:
+    return f"{source} is {cut(repr(masked(url)))}, but must {demand}"

@@ -3,29 +3,28 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import requests
 
 from llm3.errors import BackendError
 from llm3.interfaces import LLMBackend
-from llm3.types import Completion, Message, Request
-from llm3_http.address import is_openai
-from llm3_http.reply import read_completion
+from llm3.types import Completion, Request
+from llm3_http.call import Call
+from llm3_http.dialects import dialect_of
+from llm3_http.examination import question, verdict
+from llm3_http.features import features_of
 from llm3_http.retry import persist
 from llm3_http.settings import HttpSettings
-from llm3_http.statuses import check_status
-from llm3_http.transport import exchange
 
 
 class HttpBackend(LLMBackend):
-    """A model behind an OpenAI-compatible ``/chat/completions``.
+    """A model behind an HTTP server.
 
     Whatever ends without an answer is a BackendError whose one line says what to set. The key is in none of them,
-    nor in any answer or repr.
+    nor in any answer or repr. What the server refused once, such as a reply format, is not asked for again.
     """
 
     def __init__(
@@ -49,29 +48,52 @@ class HttpBackend(LLMBackend):
             wall_clock: Seconds since the epoch, for a Retry-After that is a date.
 
         Raises:
-            BackendError: OpenAI is to be asked, and there is no key: better said before a run begins.
+            BackendError: The server needs a key, and there is none: better said before a run begins.
         """
-        if is_openai(settings.base_url) and not settings.key:
+        if settings.preset.needs_key and not settings.key:
             raise BackendError(
                 f"{settings.base_url} needs a key: set {settings.key_variables}, or LLM3_BASE_URL for another server"
             )
         self._settings, self._rng = settings, rng
+        self._dialect = dialect_of(settings.preset)
         self._session = session_factory()
         self._sleep, self._clock, self._wall_clock = sleep, clock, wall_clock
+        self._features = features_of(
+            settings.preset, limit=settings.reply_limit is not None, temperature=settings.temperature is not None
+        )
 
     def complete(self, request: Request) -> Completion:
         """Send the messages and read the model's answer, again where the failure may pass."""
-        settings = self._settings
-        payload = chat_payload(settings, request.messages)
-        until = self._clock() + settings.deadline
+        return self._answer(request, self._settings)
 
-        def ask(attempt: int) -> Completion:
-            reply = exchange(self._session, settings, payload, until=until, clock=self._clock)
-            check_status(reply, settings, attempt=attempt, now=self._wall_clock())
-            completion = read_completion(reply.body, settings)
-            return replace(completion, stats=replace(completion.stats, retries=attempt - 1))
+    def examine(self) -> str:
+        """Make one call, as small as the server's ways allow and without retries, and say how it went."""
+        settings = replace(self._settings, max_attempts=1)
+        answer = self._answer(question(settings), settings)
+        return verdict(answer, self._features, settings)
 
-        return persist(ask, settings, until=until, rng=self._rng, sleep=self._sleep, clock=self._clock)
+    def _answer(self, request: Request, settings: HttpSettings) -> Completion:
+        until = self._clock() + min(settings.deadline, request.seconds)
+        features = replace(self._features, structured=bool(request.schema))
+        call = Call(self._session, settings, self._dialect, request, features)
+        try:
+            completion = persist(
+                lambda attempt: call.ask(attempt, until=until, clock=self._clock, wall_clock=self._wall_clock),
+                settings,
+                until=until,
+                note=call.note,
+                rng=self._rng,
+                sleep=self._sleep,
+                clock=self._clock,
+            )
+        except BackendError as error:
+            in_vain = call.requests - call.step_downs
+            raise BackendError(str(error), retries=in_vain, step_downs=call.step_downs) from None
+        finally:
+            self._features = call.features
+        retries = call.requests - call.step_downs - 1
+        stats = replace(completion.stats, retries=retries, step_downs=call.step_downs)
+        return replace(completion, stats=stats, notes=tuple(call.notes))
 
     def close(self) -> None:
         """Close the connections that are kept open."""
@@ -79,14 +101,3 @@ class HttpBackend(LLMBackend):
 
     def __repr__(self) -> str:
         return f"HttpBackend({self._settings!r})"
-
-
-def chat_payload(settings: HttpSettings, messages: Iterable[Message]) -> dict[str, Any]:
-    """The JSON of a request."""
-    payload: dict[str, Any] = {
-        "model": settings.model,
-        "messages": [{"role": message.role, "content": message.content} for message in messages],
-    }
-    if settings.temperature is not None:
-        payload["temperature"] = settings.temperature
-    return payload

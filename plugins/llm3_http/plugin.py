@@ -1,11 +1,11 @@
-"""Registers the backend ``http``."""
+"""Registers the backend ``http`` and what it can reach."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
 from llm3.hookspecs import hookimpl
-from llm3.interfaces import BackendSettings, LLMBackend
+from llm3.interfaces import BackendSettings, LLMBackend, ModelSource
 
 
 @hookimpl
@@ -14,8 +14,21 @@ def llm3_backends() -> Mapping[str, Callable[[BackendSettings], LLMBackend]]:
     return {"http": _http}
 
 
+@hookimpl
+def llm3_model_sources() -> Mapping[str, Callable[[Mapping[str, str]], tuple[ModelSource, ...]]]:
+    """The presets."""
+    return {"http": _sources}
+
+
+def _sources(environment: Mapping[str, str]) -> tuple[ModelSource, ...]:
+    """The presets of the backend http; llm3 models shows them."""
+    from llm3_http.sources import model_sources
+
+    return model_sources(environment)
+
+
 def _http(settings: BackendSettings) -> LLMBackend:
-    """A model behind OpenAI's chat completions: LLM3_BASE_URL, LLM3_API_KEY, --model."""
+    """A model over HTTP: --model, LLM3_API_KEY, LLM3_BASE_URL; llm3 models shows where."""
     import os
 
     import numpy as np

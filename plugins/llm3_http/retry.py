@@ -24,15 +24,16 @@ _LONGEST = 1e9
 class TryAgain(Exception):
     """A request failed in a way that may pass. It never leaves this package."""
 
-    def __init__(self, sentence: str, retry_after: float | None = None) -> None:
+    def __init__(self, sentence: str, cause: str, retry_after: float | None = None) -> None:
         """Say what happened.
 
         Args:
             sentence: What the user reads if it does not pass.
+            cause: The same in few words, for a note.
             retry_after: Seconds that the server asks to wait.
         """
         super().__init__(sentence)
-        self.retry_after = retry_after
+        self.cause, self.retry_after = cause, retry_after
 
 
 def read_retry_after(header: str | None, now: float) -> float | None:
@@ -70,6 +71,7 @@ def persist(
     settings: HttpSettings,
     *,
     until: float,
+    note: Callable[[str], None],
     rng: np.random.Generator,
     sleep: Callable[[float], None],
     clock: Callable[[], float],
@@ -80,6 +82,7 @@ def persist(
         ask: One attempt; it is told its number, counted from 1, and raises TryAgain where another may help.
         settings: For the number of attempts and the waits.
         until: When to give up, by the clock. A wait that would end later is not begun.
+        note: Is told of each retry in a line: what went wrong, and how long it waits.
         rng: For the jitter.
         sleep: Waits for a number of seconds.
         clock: Monotonic seconds.
@@ -97,7 +100,14 @@ def persist(
     def give_up(state: RetryCallState) -> bool:
         return state.attempt_number >= settings.max_attempts or clock() + wait(state) >= until
 
-    attempts = Retrying(retry=retry_if_exception_type(TryAgain), wait=wait, stop=give_up, sleep=sleep, reraise=True)
+    def tell(state: RetryCallState) -> None:
+        failure = state.outcome.exception() if state.outcome else None
+        if isinstance(failure, TryAgain):
+            note(f"{failure.cause}; asked again after {seconds(wait(state))}")
+
+    attempts = Retrying(
+        retry=retry_if_exception_type(TryAgain), wait=wait, stop=give_up, before_sleep=tell, sleep=sleep, reraise=True
+    )
     try:
         return attempts(lambda: ask(attempts.statistics["attempt_number"]))
     except TryAgain as failure:

@@ -12,6 +12,7 @@ import urllib3.exceptions
 from requests.auth import AuthBase
 
 from llm3.errors import BackendError
+from llm3_http.dialect import Dialect
 from llm3_http.retry import TryAgain
 from llm3_http.secret import Secret
 from llm3_http.settings import HttpSettings
@@ -34,26 +35,27 @@ class Reply:
     """Whole where the status is 2xx, else what could be read of its beginning."""
 
 
-class Bearer(AuthBase):
+class Key(AuthBase):
     """Sends the key, if there is one, and nothing else.
 
     With an authentication of its own, requests does not look for one in ``.netrc``; proxies and certificates from
     the environment stay in use.
     """
 
-    def __init__(self, key: Secret) -> None:
-        self._key = key
+    def __init__(self, key: Secret, dialect: Dialect) -> None:
+        self._key, self._dialect = key, dialect
 
     def __call__(self, request: requests.PreparedRequest) -> requests.PreparedRequest:
         """Add the header."""
         if self._key:
-            request.headers["Authorization"] = f"Bearer {self._key.reveal()}"
+            request.headers[self._dialect.key_header] = f"{self._dialect.key_prefix}{self._key.reveal()}"
         return request
 
 
 def exchange(
     session: requests.Session,
     settings: HttpSettings,
+    dialect: Dialect,
     payload: Mapping[str, Any],
     *,
     until: float,
@@ -67,6 +69,7 @@ def exchange(
     Args:
         session: Where connections are kept.
         settings: The server and its limits.
+        dialect: How it is spoken to.
         payload: The request's JSON.
         until: When the answer must be here at the latest, by the clock; the settings' read timeout may come first.
         clock: Monotonic seconds.
@@ -79,11 +82,11 @@ def exchange(
     limit = max(_SHORTEST, min(settings.read_timeout, until - start))
     try:
         with session.post(
-            f"{settings.base_url}/chat/completions",
+            f"{settings.base_url}{dialect.path}",
             json=payload,
             # Answers are short, and a compressed one could be a bomb.
-            headers={"Accept": "application/json", "Accept-Encoding": "identity"},
-            auth=Bearer(settings.key),
+            headers={"Accept": "application/json", "Accept-Encoding": "identity", **dialect.headers},
+            auth=Key(settings.key, dialect),
             timeout=(min(settings.connect_timeout, limit), limit),
             allow_redirects=False,
             stream=True,
@@ -130,7 +133,9 @@ def _beginning(pieces: Iterator[bytes]) -> bytes:
 def _failure(error: Exception, settings: HttpSettings, limit: float) -> TryAgain | BackendError:
     base = settings.base_url
     if isinstance(error, requests.exceptions.ProxyError):
-        return TryAgain(f"no proxy answers on the way to {base}: check HTTP_PROXY, HTTPS_PROXY and NO_PROXY")
+        return TryAgain(
+            f"no proxy answers on the way to {base}: check HTTP_PROXY, HTTPS_PROXY and NO_PROXY", "no proxy answered"
+        )
     if isinstance(error, requests.exceptions.SSLError):
         return BackendError(
             f"no TLS connection to {base}: check LLM3_BASE_URL and the server's certificate"
@@ -138,13 +143,16 @@ def _failure(error: Exception, settings: HttpSettings, limit: float) -> TryAgain
         )
     if isinstance(error, requests.ConnectTimeout):
         wait = seconds(min(settings.connect_timeout, limit))
-        return TryAgain(f"no server answers at {base} within {wait}: start it, or set LLM3_BASE_URL")
+        return TryAgain(
+            f"no server answers at {base} within {wait}: start it, or set LLM3_BASE_URL", "no server answered"
+        )
     if isinstance(_reason(error), urllib3.exceptions.NewConnectionError):
-        return TryAgain(f"no server answers at {base}: start it, or set LLM3_BASE_URL")
+        return TryAgain(f"no server answers at {base}: start it, or set LLM3_BASE_URL", "no server answered")
     if isinstance(error, (requests.Timeout, urllib3.exceptions.ReadTimeoutError)):
         return TryAgain(
             f"the server at {base} did not answer in full within {seconds(limit)}: "
-            "try again later, or give another --model"
+            "try again later, or give another --model",
+            f"no answer in full within {seconds(limit)}",
         )
     if isinstance(
         error,
@@ -155,7 +163,10 @@ def _failure(error: Exception, settings: HttpSettings, limit: float) -> TryAgain
             urllib3.exceptions.SSLError,
         ),
     ):
-        return TryAgain(f"the server at {base} broke off its answer: try again later, or look into the server's log")
+        return TryAgain(
+            f"the server at {base} broke off its answer: try again later, or look into the server's log",
+            "the answer broke off",
+        )
     return BackendError(
         f"no request can be made to {base} ({type(error).__name__}): "
         "check LLM3_BASE_URL and the settings of proxies and certificates"

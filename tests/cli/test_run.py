@@ -15,7 +15,7 @@ SOLVING = """{"Full Plan": ["go([], {'x': 0.5, 'y': 0.5})", "go([], {'x': 1.9, '
 SHORT = """{"Full Plan": ["go([], {'x': 0.5, 'y': 0.5})"]}"""
 KEYS = {
     "solved", "domain", "setting", "seed", "strategy", "feedback", "llm", "model", "planner", "llm_calls",
-    "motion_calls", "reused_actions", "seconds", "plan", "out", "stop", "prompt_tokens", "completion_tokens",
+    "motion_calls", "reused_actions", "seconds", "plan", "out", "stop", "prompt_tokens", "completion_tokens", "cost",
 }  # fmt: skip
 
 
@@ -63,6 +63,7 @@ def test_json_is_one_object_with_exactly_the_documented_keys(corridor, calls):
         "solved": calls == 20, "domain": "corridor", "setting": "default", "seed": 0, "strategy": "backtrack",
         "feedback": "categorized", "llm": "offline", "model": None, "planner": "birrt", "reused_actions": 0,
         "out": "here", "stop": "solved" if calls == 20 else "calls", "prompt_tokens": 0, "completion_tokens": 0,
+        "cost": None,
     }  # fmt: skip
 
 
@@ -195,3 +196,43 @@ def test_no_text_moves_the_cursor(text):
     shown = printable(text)
     assert shown == "" or shown.isprintable()
     assert "\n" not in printable(text, keep_spaces=True)
+
+
+SPENDING = """\
+from llm3 import hookimpl
+from llm3.interfaces import LLMBackend
+from llm3.types import Completion, Stats
+
+class Spending(LLMBackend):
+    def complete(self, request):
+        return Completion("not yet", Stats(prompt_tokens=3_000_000, completion_tokens=500_000))
+
+@hookimpl
+def llm3_backends():
+    return {"spending": lambda settings: Spending()}
+"""
+
+
+@pytest.mark.parametrize(("model", "cost"), [("lab/small", 20.0), ("lab/other", None)])
+def test_a_bill_is_told_where_the_price_is_known(corridor, install, cwd, model, cost):
+    install("llm3_spending", SPENDING)
+    (cwd / "prices.json").write_text('{"lab/small": {"read": 2, "written": 8}}')
+    ended = corridor(f"--llm spending --model {model} --prices prices.json --max-llm-calls 2 --json")
+    assert json.loads(ended.out)["cost"] == cost
+    line = "6,000,000 tokens read, 1,000,000 written"
+    assert (f"{line}: 20 by the price table" if cost else line) in ended.err.splitlines()
+
+
+def test_a_run_that_is_ended_by_its_tokens_says_so(corridor, install):
+    install("llm3_spending", SPENDING)
+    ended = corridor("--llm spending --model m --max-tokens-total 4000000 --json")
+    told = json.loads(ended.out)
+    assert (ended.code, told["stop"], told["llm_calls"]) == (1, "tokens", 2)
+    assert "the budget of tokens is used up" in ended.err.splitlines()
+
+
+def test_a_price_table_that_is_none_is_refused_before_anything_is_spent(corridor, cwd):
+    (cwd / "prices.json").write_text("[]")
+    ended = corridor("--prices prices.json --out here")
+    assert (ended.code, ended.err) == (3, "llm3: error: prices.json: Expected `object`, got `array`\n")
+    assert not (cwd / "here").exists()

@@ -106,6 +106,7 @@ def test_a_solved_run(tmp_path):
         "options": {"ground": "wet"},
     }
     assert found["instance"] == {"start": 0.0}
+    assert found["options"] == {"ground": "wet", "colour": "red"}
     assert found["language_model"] is False
     assert found["notice"] == "No language model is used: the replies come from a script."
     assert set(found["versions"]) == {"python", "platform", "llm3", "numpy", "scipy", "pybullet", "ompl", "toppra"}
@@ -161,7 +162,7 @@ def test_a_reply_is_paid_for_also_if_its_attempt_never_ends(tmp_path):
 
 
 def test_a_package_that_is_not_there_has_no_version(tmp_path, monkeypatch):
-    monkeypatch.setattr("llm3.records.recorder.VERSIONED", ("llm3", "no-such-package"))
+    monkeypatch.setattr("llm3.records.run_file.VERSIONED", ("llm3", "no-such-package"))
     record(tmp_path, SOLVES)
     versions = run_file(tmp_path)["versions"]
     assert set(versions) == {"python", "platform", "llm3", "no-such-package"}

@@ -8,10 +8,12 @@ from line_world import Detour, Line, LineDomain, LinePlugin, Plain, line_registr
 
 from llm3 import Domain, LLMBackend, PlannerSettings, Registry, Strategy, hookimpl, hookspecs
 from llm3.errors import PluginError, UnknownName
-from llm3.interfaces import BackendSettings
+from llm3.interfaces import BackendSettings, ModelSource
 from llm3.registry import HOOKS, BrokenPlugin
 
-ALL_HOOKS = "llm3_backends, llm3_domains, llm3_feedback, llm3_planners, llm3_strategies, llm3_timers"
+ALL_HOOKS = (
+    "llm3_backends, llm3_domains, llm3_feedback, llm3_model_sources, llm3_planners, llm3_strategies, llm3_timers"
+)
 
 BRINGS_A_DOMAIN = """
 from llm3 import hookimpl
@@ -86,7 +88,7 @@ def test_names_are_sorted_and_come_with_who_brought_them():
     assert [(r.kind, r.name, r.plugin) for r in registry.registrations("planner")] == [
         ("planner", "birrt", "line (test)")
     ]
-    assert set(HOOKS) == {"domain", "strategy", "feedback", "planner", "timer", "backend"}
+    assert set(HOOKS) == {"domain", "strategy", "feedback", "planner", "timer", "backend", "model source"}
 
 
 def test_every_hook_is_documented_and_brings_a_kind():
@@ -353,10 +355,41 @@ def test_what_ships_is_found_and_whole():
         "feedback": {"categorized", "binary", "none"},
         "planner": {"birrt", "ompl-bitstar", "ompl-lbkpiece", "ompl-rrtconnect"},
         "timer": {"toppra"},
-        "backend": {"offline", "random", "scripted", "http"},
+        "backend": {"offline", "random", "replay", "scripted", "http", "litellm"},
+        "model source": {"http"},
     }
     assert all(isinstance(registry.strategy(name), Strategy) for name in shipped["strategy"])
     assert isinstance(registry.backend("offline", BackendSettings(stand_in=lambda *_: "")), LLMBackend)
+
+
+def sources(answer):
+    class Shelf:
+        @hookimpl
+        def llm3_model_sources(self):
+            return {"shelf": lambda environment: answer or (ModelSource(environment["NAME"], "/srv", "not needed"),)}
+
+    registry = line_registry()
+    registry.register(Shelf(), "shelf")
+    return registry
+
+
+def test_model_sources_are_told_the_environment_and_come_sorted():
+    registry = sources(())
+    assert [source.name for source in registry.model_sources({"NAME": "z"})] == ["z"]
+    two = (ModelSource("b", "/b", "set", ("B",)), ModelSource("a", "/a", "not set", ("A",)))
+    assert sources(two).model_sources({}) == (two[1], two[0])
+    assert Registry().model_sources({}) == ()
+
+
+@pytest.mark.parametrize("wrong", ["text", ["b"], ("b",), 3])
+def test_model_sources_are_a_tuple_of_them(wrong):
+    assert complaint(sources(wrong).model_sources, {}) == (
+        f"shelf: model source 'shelf' must answer a tuple of ModelSource, not {wrong!r}."
+    )
+
+
+def test_a_source_that_breaks_is_its_plugins_fault():
+    assert complaint(sources(()).model_sources, {}) == ("shelf: model source 'shelf' cannot be made: KeyError: 'NAME'")
 
 
 def test_a_domain_goes_by_its_own_name():

@@ -1,10 +1,11 @@
 """The fake model for tests: it says what it is told to say."""
 
+import numpy as np
 import pytest
 from line_world import Line
 
 from llm3.errors import BackendError
-from llm3.testing import ScriptedLLM
+from llm3.testing import ScriptedLLM, stand_in_script
 from llm3.types import Completion, Context, Message, Request, Stats
 
 ENV = Line()
@@ -31,6 +32,12 @@ def test_a_function_answers_the_request():
     model = ScriptedLLM(lambda request: f"seed {request.seed}")
     assert model.complete(REQUEST) == Completion("seed 3")
     assert model.complete(REQUEST) == Completion("seed 3")
+
+
+def test_a_stand_in_answers_from_the_context_and_the_seed():
+    model = ScriptedLLM(stand_in_script(lambda context, rng: f"{context.task} {rng.integers(1000)}"))
+    said = f"{ENV.task} {np.random.default_rng(3).integers(1000)}"
+    assert [model.complete(REQUEST).text for _ in range(2)] == [said, said]
 
 
 def test_a_completion_is_handed_on_as_it_is():

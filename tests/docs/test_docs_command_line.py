@@ -9,8 +9,8 @@ from docs_pages import DOCS, page, table
 
 from llm3.cli.main import COMMANDS, INTERRUPTED, TERMINATED, build_parser, main
 from llm3.errors import LLM3Error, UsageError
-from llm3_http.address import OPENAI
-from llm3_http.settings import HttpSettings
+from llm3_http.presets import VARIABLE, known_presets
+from llm3_http.settings import API_KEY, BASE_URL, HttpSettings
 
 
 def command_line_script():
@@ -72,5 +72,7 @@ def test_the_limits_of_the_http_backend_are_its_defaults(limit, fields):
 
 def test_the_variables_of_the_http_backend_are_documented():
     shown = table(page("command-line"), "Environment variables of the http backend", "variable")
-    assert shown.names == ("LLM3_BASE_URL", "LLM3_API_KEY", "OPENAI_API_KEY")
-    assert OPENAI in shown.rows[0][1]
+    presets = known_presets({})
+    own = {variable for preset in presets.values() for variable in preset.key_variables}
+    assert set(shown.names) == {BASE_URL, API_KEY, VARIABLE, *own}
+    assert presets["openai"].base_url in shown.rows[0][1]

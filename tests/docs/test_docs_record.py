@@ -79,7 +79,7 @@ def test_the_line_of_a_reused_action_leaves_out_what_stands_where_it_was_tried_f
 
 
 def test_the_formats_are_named():
-    from llm3.records import plan, recorder
+    from llm3.records import event_lines, plan, run_file
 
-    for name in (recorder.RUN_FORMAT, recorder.EVENTS_FORMAT, plan.PLAN_FORMAT):
+    for name in (run_file.RUN_FORMAT, event_lines.EVENTS_FORMAT, plan.PLAN_FORMAT):
         assert name in page("record")

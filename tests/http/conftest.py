@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,8 +11,9 @@ import requests
 from model_server import QUESTION, Answer, ModelServer, Time
 
 from llm3.errors import BackendError
-from llm3.types import Completion
+from llm3.types import Completion, Request
 from llm3_http.backend import HttpBackend
+from llm3_http.presets import Preset
 from llm3_http.secret import Secret
 from llm3_http.settings import HttpSettings
 
@@ -52,9 +55,10 @@ def connect(server: ModelServer, time: Time) -> Iterator[Callable[..., HttpBacke
         base_url: str = "",
         session_factory: Callable[[], requests.Session] = requests.Session,
         sleep: Callable[[float], None] = time.sleep,
-        **limits: float,
+        preset: Mapping[str, Any] = MappingProxyType({}),
+        **limits: Any,
     ) -> HttpBackend:
-        settings = HttpSettings("asked-model", base_url or server.url, Secret(key), **limits)
+        settings = HttpSettings("asked-model", Preset(base_url or server.url, **preset), Secret(key), **limits)
         backend = HttpBackend(
             settings,
             rng=np.random.default_rng(0),
@@ -76,9 +80,9 @@ def connect(server: ModelServer, time: Time) -> Iterator[Callable[..., HttpBacke
 def complete(server: ModelServer, connect: Callable[..., HttpBackend]) -> Callable[..., Completion]:
     """What comes of one question when the server follows this script."""
 
-    def run(*script: Answer, **arguments: object) -> Completion:
+    def run(*script: Answer, question: Request = QUESTION, **arguments: object) -> Completion:
         server.script = script or server.script
-        return connect(**arguments).complete(QUESTION)
+        return connect(**arguments).complete(question)
 
     return run
 

@@ -7,7 +7,7 @@ import json
 import socket
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any
 
@@ -21,10 +21,21 @@ QUESTION = Request(
 )
 
 
+SCHEMA = {"type": "object", "properties": {"Full Plan": {"type": "array"}}}
+STRUCTURED = replace(QUESTION, schema=SCHEMA)
+
+
 def completion(content: object = "a plan", finish_reason: str = "stop", **fields: object) -> dict[str, Any]:
     """The body of a usual answer."""
     choice = {"index": 0, "message": {"role": "assistant", "content": content}, "finish_reason": finish_reason}
     return {"model": "served-model", "choices": [choice]} | fields
+
+
+def anthropic_completion(*blocks: object, **fields: object) -> dict[str, Any]:
+    """The body of a usual answer of the Messages API; without blocks one text block."""
+    content = list(blocks) or [{"type": "text", "text": "a plan"}]
+    usual = {"type": "message", "role": "assistant", "model": "served-model", "stop_reason": "end_turn"}
+    return usual | {"content": content} | fields
 
 
 def answer(body: object = None, status: int = 200, headers: Mapping[str, str] | None = None) -> Answer:

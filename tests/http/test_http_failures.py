@@ -22,11 +22,13 @@ from model_server import (
 )
 
 from llm3.errors import BackendError
-from llm3_http.address import OPENAI
+from llm3_http.presets import known_presets
 from llm3_http.secret import Secret
 from llm3_http.settings import HttpSettings
 from llm3_http.statuses import check_status
 from llm3_http.transport import Reply
+
+OPENAI = known_presets({})["openai"]
 
 
 @pytest.fixture
@@ -96,8 +98,9 @@ def test_certificates_that_are_not_there(failure, monkeypatch):
     )
 
 
-def test_openai_without_a_key_is_not_even_asked(failure, time):
-    assert failure(base_url=OPENAI) == (
+def test_a_server_that_needs_a_key_is_not_even_asked_without_one(failure, time):
+    preset = {"needs_key": True, "key_variables": ("OPENAI_API_KEY",)}
+    assert failure(base_url=OPENAI.base_url, preset=preset) == (
         "https://api.openai.com/v1 needs a key: set LLM3_API_KEY or OPENAI_API_KEY, or LLM3_BASE_URL for another server"
     )
     assert time.naps == []
@@ -172,6 +175,7 @@ def test_a_redirect_to_nowhere(failure, server):
     [
         (400, "", "refuses the request (400): check --model and --temperature; it says: because"),
         (422, "", "refuses the request (422): check --model and --temperature; it says: because"),
+        (400, "sk-something", "refuses the request (400): check --model and --temperature; it says: because"),
         (401, "", "asks for a key (401): set LLM3_API_KEY; it says: because"),
         (401, "sk-something", "refuses the key (401): set LLM3_API_KEY; it says: because"),
         (403, "sk-something", "refuses the key (403): set LLM3_API_KEY; it says: because"),
@@ -193,7 +197,7 @@ def test_openais_refusal_names_both_variables():
     with pytest.raises(BackendError) as caught:
         check_status(Reply(401, {}, b"because"), HttpSettings("m", OPENAI, Secret("sk-x")), attempt=1, now=0.0)
     assert str(caught.value) == (
-        f"the server at {OPENAI} refuses the key (401): set LLM3_API_KEY or OPENAI_API_KEY; it says: because"
+        f"the server at {OPENAI.base_url} refuses the key (401): set LLM3_API_KEY or OPENAI_API_KEY; it says: because"
     )
 
 

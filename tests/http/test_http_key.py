@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from model_server import (
     QUESTION,
+    STRUCTURED,
     answer,
     bad_compression,
     broken_off,
@@ -23,6 +24,7 @@ from model_server import (
 )
 
 from llm3.errors import BackendError
+from llm3_http.presets import Preset
 from llm3_http.secret import Secret
 from llm3_http.settings import HttpSettings
 
@@ -67,10 +69,26 @@ def test_no_failure_shows_the_key(connect, server, caplog, trouble):
     assert not [text for text in shown if CANARY[:8] in text]
 
 
+@pytest.mark.parametrize("trouble", TROUBLES)
+def test_no_failure_of_the_messages_api_shows_the_key(failure, server, caplog, trouble):
+    caplog.set_level(logging.DEBUG)
+    preset = {"dialect": "messages", "reply_formats": ("text",), "max_reply_tokens": 9}
+    sentence = failure(TROUBLES[trouble], key=CANARY, preset=preset, read_timeout=0.1, max_attempts=1)
+    assert server.received[0].headers["x-api-key"] == CANARY
+    assert CANARY[:8] not in sentence + caplog.text
+
+
+def test_no_note_shows_the_key(complete):
+    script = (refusal(400, f"response_format {CANARY}"), refusal(500, CANARY), hung_up, answer())
+    assert CANARY[:8] not in str(complete(*script, key=CANARY, question=STRUCTURED))
+
+
 def test_no_completion_shows_the_key(complete):
     body = completion(f"you said {CANARY}", f"stop {CANARY}", model=f"m {CANARY}")
     read = complete(answer(body), key=CANARY)
     assert (read.text, read.finish_reason, read.model) == ("you said ***", "stop ***", "m ***")
+    body["choices"][0]["message"]["reasoning"] = f"the key is {CANARY}"
+    assert complete(answer(body), key=CANARY).reasoning == "the key is ***"
 
 
 def test_a_refused_answer_does_not_send_the_key_twice(connect, server):
@@ -82,7 +100,7 @@ def test_a_refused_answer_does_not_send_the_key_twice(connect, server):
 
 
 def test_settings_do_not_show_the_key():
-    settings = HttpSettings("m", key=Secret(CANARY))
+    settings = HttpSettings("m", Preset("https://example.org"), Secret(CANARY))
     for shown in (repr(settings), str(settings), repr(dataclasses.asdict(settings)), f"{settings.key}"):
         assert CANARY not in shown
         assert "***" in shown
@@ -90,7 +108,7 @@ def test_settings_do_not_show_the_key():
 
 @given(st.text(), st.text())
 def test_clean_text_never_holds_the_key(before, after):
-    settings = HttpSettings("m", key=Secret(CANARY))
+    settings = HttpSettings("m", Preset("https://example.org"), Secret(CANARY))
     assert CANARY not in settings.clean(before + CANARY + after)
     assert CANARY not in settings.clean("\x00".join(before + CANARY + after))
 

@@ -10,37 +10,44 @@ from hypothesis import strategies as st
 from model_server import answer, completion
 
 from llm3.errors import BackendError
-from llm3_http.reply import read_completion, server_message, without_reasoning
+from llm3.types import Stats
+from llm3_http.chat import ChatCompletions
+from llm3_http.dialect import Dialect
+from llm3_http.messages import Messages
+from llm3_http.presets import Preset
+from llm3_http.reply import read_completion, server_message
 from llm3_http.settings import HttpSettings
+from llm3_http.thinking import apart
 from llm3_http.wording import LONGEST, cut, one_line
 
-SETTINGS = HttpSettings("m", "http://host/v1")
+SETTINGS = HttpSettings("m", Preset("http://host/v1"))
+FIELDS = (
+    *("choices", "message", "content", "text", "type", "thinking", "error", "model", "refusal", "stop_reason", "usage"),
+    *("prompt_tokens", "prompt_tokens_details", "cached_tokens", "input_tokens", "cache_read_input_tokens"),
+    *("completion_tokens", "completion_tokens_details", "reasoning_tokens", "total_tokens"),
+)
 JSON = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
-    lambda inner: (
-        st.lists(inner, max_size=3)
-        | st.dictionaries(
-            st.sampled_from(
-                ["choices", "message", "content", "error", "usage", "model", "refusal", "prompt_tokens", "text"]
-            ),
-            inner,
-            max_size=4,
-        )
-    ),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.sampled_from(FIELDS), inner, max_size=4),
     max_leaves=12,
 )
 
 
-@given(JSON.map(lambda value: json.dumps(value).encode()) | st.binary())
-def test_any_body_gives_a_completion_or_one_line(body):
+DIALECTS = st.sampled_from([ChatCompletions(), Messages()])
+
+
+@given(JSON.map(lambda value: json.dumps(value).encode()) | st.binary(), DIALECTS)
+def test_any_body_gives_a_completion_or_one_line(body: bytes, dialect: Dialect) -> None:
     try:
-        read = read_completion(body, SETTINGS)
+        read = read_completion(body, SETTINGS, dialect)
     except BackendError as error:
         sentence = str(error)
     else:
         sentence = read.model + read.finish_reason
         assert read.text.encode() is not None
-        assert min(read.stats.prompt_tokens, read.stats.completion_tokens) >= 0
+        stats = read.stats
+        assert 0 <= stats.cached_tokens <= stats.prompt_tokens
+        assert 0 <= stats.reasoning_tokens <= stats.completion_tokens
     assert sentence.isprintable()
 
 
@@ -48,7 +55,7 @@ def test_any_body_gives_a_completion_or_one_line(body):
 def test_any_content_of_a_message_is_read(content, reason, usage, model):
     body = completion(content, usage=usage, model=model)
     body["choices"][0]["finish_reason"] = reason
-    read = read_completion(json.dumps(body).encode(), SETTINGS)
+    read = read_completion(json.dumps(body).encode(), SETTINGS, ChatCompletions())
     assert read.text == "" or isinstance(content, (str, list))
 
 
@@ -72,10 +79,56 @@ def test_the_answer_is_the_text_alone(complete, content, text):
     assert complete(answer(completion(content))).text == text
 
 
-def test_reasoning_beside_the_answer_is_left_out(complete):
-    body = completion("a plan")
-    body["choices"][0]["message"]["reasoning_content"] = "hm"
-    assert complete(answer(body)).text == "a plan"
+@pytest.mark.parametrize(
+    ("content", "beside", "reasoning"),
+    [
+        ("a plan", {"reasoning_content": "hm"}, "hm"),
+        ("a plan", {"reasoning": "hm"}, "hm"),
+        ("a plan", {"reasoning_content": "hm", "reasoning": "hm"}, "hm"),
+        ("a plan", {"reasoning_content": None, "reasoning": 3}, ""),
+        ("<think>hm</think>a plan", {}, "hm"),
+        ("hm</think>a plan", {}, "hm"),
+        ("<think>hm", {}, "hm"),
+        ("<think>hm</think>a plan", {"reasoning": "first"}, "first\nhm"),
+        ([{"type": "thinking", "text": "hm"}, {"type": "text", "text": "a plan"}], {}, "hm"),
+    ],
+)
+def test_what_the_model_thought_is_kept_apart(complete, content, beside, reasoning):
+    body = completion(content)
+    body["choices"][0]["message"] |= beside
+    read = complete(answer(body))
+    assert read.reasoning == reasoning
+    assert "hm" not in read.text
+
+
+@pytest.mark.parametrize(
+    ("usage", "spent"),
+    [
+        (
+            {
+                "prompt_tokens": 100,
+                "completion_tokens": 60,
+                "prompt_tokens_details": {"cached_tokens": 80},
+                "completion_tokens_details": {"reasoning_tokens": 50},
+            },
+            Stats(prompt_tokens=100, cached_tokens=80, completion_tokens=60, reasoning_tokens=50),
+        ),
+        # Gemini's form: what was thought is in the total alone
+        (
+            {"prompt_tokens": 20, "completion_tokens": 151, "total_tokens": 553},
+            Stats(prompt_tokens=20, completion_tokens=533),
+        ),
+        ({"prompt_tokens": 5, "prompt_tokens_details": None, "completion_tokens_details": []}, Stats(prompt_tokens=5)),
+        ({"prompt_tokens": 5, "prompt_tokens_details": {"cached_tokens": 9}}, Stats(prompt_tokens=5, cached_tokens=5)),
+    ],
+)
+def test_the_parts_of_the_usage_are_told_apart(complete, usage, spent):
+    assert complete(answer(completion(usage=usage))).stats == spent
+
+
+def test_an_answer_that_a_limit_ended_is_known_by_its_reason(complete):
+    assert complete(answer(completion("a pl", "length"))).cut_off
+    assert not complete(answer()).cut_off
 
 
 @pytest.mark.parametrize("reason", ["length", "content_filter"])
@@ -106,7 +159,7 @@ def test_a_missing_model_and_finish_reason_are_empty(complete):
 
 
 NO_JSON = "sent no JSON object: check LLM3_BASE_URL"
-NO_CHOICES = "sent no choices with a message: check LLM3_BASE_URL"
+NO_ANSWER = "sent no answer of /chat/completions: check LLM3_BASE_URL"
 
 
 @pytest.mark.parametrize(
@@ -118,9 +171,9 @@ NO_CHOICES = "sent no choices with a message: check LLM3_BASE_URL"
         (b"[1]", f"{NO_JSON}; it says: [1]"),
         (b"[" * 100_000, f"{NO_JSON}; it says: {'[' * 199}…"),
         (b'{"n": ' + b"1" * 5000 + b"}", f'{NO_JSON}; it says: {{"n": {"1" * 193}…'),
-        (b'{"id": 1}', f'{NO_CHOICES}; it says: {{"id": 1}}'),
-        (b'{"choices": []}', f'{NO_CHOICES}; it says: {{"choices": []}}'),
-        (b'{"choices": [{"text": "x"}]}', f'{NO_CHOICES}; it says: {{"choices": [{{"text": "x"}}]}}'),
+        (b'{"id": 1}', f'{NO_ANSWER}; it says: {{"id": 1}}'),
+        (b'{"choices": []}', f'{NO_ANSWER}; it says: {{"choices": []}}'),
+        (b'{"choices": [{"text": "x"}]}', f'{NO_ANSWER}; it says: {{"choices": [{{"text": "x"}}]}}'),
         (b'{"error": {"message": "no\\nmemory"}}', "reports an error: check --model; it says: no memory"),
         (b'{"error": "overloaded", "choices": []}', "reports an error: check --model; it says: overloaded"),
     ],
@@ -143,6 +196,8 @@ def test_a_null_error_is_none(complete):
         {"detail": "no"},
         {"detail": [{"loc": ["body"], "msg": "no"}]},
         [{"error": {"code": 400, "message": "no"}}],
+        {"error": {"metadata": {"raw": "no"}}},
+        {"error": {"message": "no", "metadata": {"raw": 5}}},
         "no",
     ],
 )
@@ -152,8 +207,8 @@ def test_servers_word_their_errors_in_many_forms(body):
 
 @given(st.text().filter(lambda text: "think>" not in text))
 def test_a_text_without_reasoning_stays_as_it_is(text):
-    assert without_reasoning(text) == text
-    assert without_reasoning(f"<think>{text}</think>{text}") == text.lstrip()
+    assert apart(text) == ("", text)
+    assert apart(f"<think>{text}</think>{text}") == (text.strip(), text.lstrip())
 
 
 @given(st.text())

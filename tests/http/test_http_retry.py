@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from email.utils import formatdate
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from model_server import QUESTION, answer, broken_off, hung_up, refusal
+from model_server import QUESTION, answer, broken_off, hung_up, refusal, silence
 
+from llm3.errors import BackendError
+from llm3_http.presets import Preset
 from llm3_http.retry import backoff, read_retry_after
 from llm3_http.settings import HttpSettings
 
@@ -59,6 +62,23 @@ def test_no_wait_is_begun_that_would_end_after_the_deadline(failure, server, tim
     assert len(server.received) == len(time.naps) + 1
 
 
+@pytest.mark.parametrize("allowed", [10.0, 100.0])
+def test_a_call_takes_no_longer_than_its_request_allows(connect, server, time, allowed):
+    server.script = (refusal(503),)
+    began = time.now
+    with pytest.raises(BackendError) as caught:
+        connect(max_attempts=1000, deadline=900.0, longest_wait=4.0).complete(replace(QUESTION, seconds=allowed))
+    assert allowed - 4 < time.now - began < allowed
+    assert caught.value.retries == len(server.received)
+
+
+def test_a_request_that_allows_no_time_is_not_waited_for(connect, server, time):
+    server.script = (silence,)
+    with pytest.raises(BackendError) as caught:
+        connect().complete(replace(QUESTION, seconds=-1.0))
+    assert (caught.value.retries, time.naps) == (1, [])
+
+
 def test_waits_double_up_to_a_limit_with_jitter(failure, time):
     failure(refusal(503), max_attempts=8)
     whole = [1, 2, 4, 8, 16, 30, 30]
@@ -68,7 +88,7 @@ def test_waits_double_up_to_a_limit_with_jitter(failure, time):
 
 @given(st.integers(1, 10_000), st.floats(0, 1, exclude_max=True))
 def test_a_wait_is_finite_positive_and_bounded(attempt, draw):
-    settings = HttpSettings("m")
+    settings = HttpSettings("m", Preset("http://host/v1"))
     assert 0 < backoff(settings, attempt, draw) <= settings.longest_wait
     assert backoff(settings, attempt, draw) <= 2 * backoff(settings, attempt + 1, draw)
 

@@ -11,12 +11,14 @@ from hypothesis import strategies as st
 from llm3.errors import UsageError
 from llm3.interfaces import BackendSettings
 from llm3_http import plugin
-from llm3_http.address import OPENAI, checked_address, is_openai
+from llm3_http.address import checked_address, same_address
 from llm3_http.backend import HttpBackend
+from llm3_http.presets import Preset, known_presets
 from llm3_http.settings import HttpSettings, settings_from
 
 ASKED = BackendSettings(model="m")
-LOCAL = "http://127.0.0.1:11434/v1"
+OPENAI = "https://api.openai.com/v1"
+LOCAL = "http://127.0.0.1:9/v1"
 
 
 def settings(asked: BackendSettings = ASKED, **environment: str) -> HttpSettings:
@@ -34,13 +36,15 @@ def test_the_plugin_makes_a_backend_from_the_environment(monkeypatch):
     monkeypatch.setenv("LLM3_API_KEY", "sk-canary-1234")
     backend = plugin.llm3_backends()["http"](BackendSettings(model="m", temperature=0.5))
     assert isinstance(backend, HttpBackend)
-    assert repr(backend).startswith(f"HttpBackend(HttpSettings(model='m', base_url={LOCAL!r}, key=***, temperature=0.5")
+    assert repr(backend).startswith(
+        f"HttpBackend(HttpSettings(model='m', preset={Preset(LOCAL)!r}, key=***, temperature=0.5"
+    )
     backend.close()
 
 
 def test_the_defaults_are_openai_without_a_key_and_without_sampling_parameters():
     made = settings()
-    assert (made.base_url, bool(made.key), made.temperature) == (OPENAI, False, None)
+    assert (made.preset, bool(made.key), made.temperature) == (known_presets({})["openai"], False, None)
 
 
 def test_empty_variables_are_as_good_as_none():
@@ -60,6 +64,7 @@ def test_empty_variables_are_as_good_as_none():
         ("http://api.openai.com/v1", "", "sk-openai", ""),
         ("https://api.openai.com:8443/v1", "", "sk-openai", ""),
         ("https://api.openai.com.example.org/v1", "", "sk-openai", ""),
+        ("https://api.openai.com/v1/elsewhere", "", "sk-openai", ""),
         ("https://example.org/api.openai.com/v1", "", "sk-openai", ""),
         ("https://notapi.openai.com/v1", "", "sk-openai", ""),
     ],
@@ -75,18 +80,18 @@ def test_openais_key_goes_to_no_address_that_could_be_made_up(text):
         made = settings(LLM3_BASE_URL=text, OPENAI_API_KEY="sk-openai")
     except UsageError:
         return
-    assert made.key.reveal() == ("sk-openai" if is_openai(made.base_url) else "")
+    assert made.key.reveal() == ("sk-openai" if same_address(made.base_url, OPENAI) else "")
 
 
 @given(st.text() | st.from_regex(r"(https?|ftp)://[\w:@./?#\\\[\] -]*"))
 def test_an_address_is_usable_or_refused_in_one_line(text):
     try:
-        shown = checked_address(text)
+        shown = checked_address(text, "LLM3_BASE_URL")
     except UsageError as error:
         shown = str(error)
     else:
         assert re.match("https?://", shown, re.IGNORECASE)
-        assert checked_address(shown) == shown
+        assert checked_address(shown, "LLM3_BASE_URL") == shown
     assert shown.isprintable()
 
 
@@ -143,7 +148,7 @@ def test_a_temperature_is_a_number_of_at_least_zero(temperature):
 @pytest.mark.parametrize("value", [0, -1, float("nan")])
 def test_limits_are_positive(limit, value):
     with pytest.raises(UsageError) as caught:
-        HttpSettings("m", **{limit: value})
+        HttpSettings("m", Preset(LOCAL), **{limit: value})
     assert str(caught.value) == f"{limit} must be a positive number, not {value}"
 
 

@@ -15,6 +15,7 @@ LOOKS = {
     "import llm3.testing": "import llm3.testing",
     "llm3 --help": "from llm3.cli.main import main; main(['--help'])",
     "llm3 list": "from llm3.cli.main import main; main(['list'])",
+    "llm3 models": "from llm3.cli.main import main; main(['models'])",
     "llm3 --domain kitchen": "from llm3.cli.main import main; main(['--domain', 'kitchen'])",
 }
 

@@ -1,0 +1,87 @@
+"""Files of one JSON object per line, which are readable at every moment of their making."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from llm3.errors import InputError
+from llm3.jsonio import dumps, loads
+
+
+@dataclass(frozen=True)
+class Header:
+    """The first line."""
+
+    format: str
+
+
+class LineWriter:
+    """Writes lines, each of them flushed at once. Close it."""
+
+    def __init__(self, path: Path, format_: str, force: bool = True) -> None:
+        """Begin the file with its header.
+
+        Raises:
+            FileExistsError: There is such a file, and `force` is not given.
+        """
+        self._file = path.open("w" if force else "x", encoding="utf-8")
+        self.write(Header(format_))
+
+    def write(self, value: Any) -> None:
+        """Write one line."""
+        self._file.write(dumps(value) + "\n")
+        self._file.flush()
+
+    def close(self) -> None:
+        """Close the file. Calling it twice does no harm."""
+        self._file.close()
+
+
+def read_lines(path: Path, format_: str) -> Iterator[tuple[str, bytes]]:
+    """Each line after the header, and where it stands.
+
+    A last line that was cut off, as by a kill, is left out. A header may stand again between the lines, so that files
+    can be joined.
+
+    Raises:
+        InputError: The file cannot be read, or it is of another format.
+    """
+    try:
+        *whole, last = path.read_bytes().split(b"\n")
+    except OSError as error:
+        raise InputError(f"{path}: {error.strerror or error}") from error
+    if _is_json(last):
+        whole.append(last)
+    for number, text in enumerate(whole, start=1):
+        source = f"{path}, line {number}"
+        if number == 1 or _is_header(text):
+            stated = loads(text, Header, source).format
+            if stated != format_:
+                raise InputError(f"{source}: the format is {stated!r}, and this version reads {format_!r}")
+        else:
+            yield source, text
+
+
+def _is_header(text: bytes) -> bool:
+    return text.startswith(b'{"format":')
+
+
+def _is_json(text: bytes) -> bool:
+    try:
+        json.loads(text)
+    except (ValueError, RecursionError):
+        return False
+    return True
+
+
+def plain(text: bytes, source: str) -> Mapping[str, Any]:
+    """A line as dicts, lists and the like.
+
+    Raises:
+        InputError: It is no JSON object.
+    """
+    return loads(text, dict[str, Any], source)

@@ -1,0 +1,1 @@
+"""Answers from what was recorded: a cassette, or a run's folder."""

@@ -1,0 +1,1 @@
+"""Models of any provider that the library LiteLLM speaks to."""

@@ -1,0 +1,150 @@
+"""The backend ``litellm``."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from tenacity import RetryCallState, Retrying, retry_if_exception
+
+from llm3.errors import BackendError
+from llm3.interfaces import BackendSettings, LLMBackend
+from llm3.types import Completion, Request, Stats
+
+ATTEMPTS = 5
+"""Requests for one completion, the first one included."""
+LONGEST_WAIT = 30.0
+"""Seconds at which the doubling of the waits between them ends."""
+SECONDS = 900.0
+"""What one completion may take, all requests and waits together."""
+_MAY_PASS = frozenset({408, 409, 425, 429})
+_SECRET_NAMES = ("KEY", "TOKEN", "SECRET", "PASSWORD")
+_PLACEHOLDER = 8  # shorter values are no secrets
+_SHOWN = 200
+
+Complete = Callable[..., Any]
+"""``litellm.completion``."""
+
+
+class LiteLLMBackend(LLMBackend):
+    """A model that LiteLLM reaches. Keys come from the environment, by the names that LiteLLM documents."""
+
+    def __init__(
+        self,
+        settings: BackendSettings,
+        complete: Complete,
+        environment: Mapping[str, str],
+        *,
+        rng: np.random.Generator,
+        sleep: Callable[[float], None] = time.sleep,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Make a backend; nothing is sent yet.
+
+        Args:
+            settings: What the user asked.
+            complete: ``litellm.completion``.
+            environment: The environment variables: values of keys in it are kept out of all texts.
+            rng: For the jitter of the waits between retries.
+            sleep: Waits for a number of seconds.
+            clock: Monotonic seconds.
+        """
+        self._model, self._complete = settings.model or "", complete
+        asked = {"temperature": settings.temperature, "max_tokens": settings.max_reply_tokens}
+        self._asked = {name: value for name, value in asked.items() if value is not None}
+        self._secrets = [
+            value
+            for name, value in environment.items()
+            if any(part in name.upper() for part in _SECRET_NAMES) and len(value) >= _PLACEHOLDER
+        ]
+        self._rng, self._sleep, self._clock = rng, sleep, clock
+
+    def complete(self, request: Request) -> Completion:
+        """Send the messages and read the answer, again where the failure may pass."""
+        messages = [{"role": message.role, "content": message.content} for message in request.messages]
+        until = self._clock() + min(SECONDS, request.seconds)
+        notes: list[str] = []
+        draws = self._rng.random(ATTEMPTS)
+
+        def wait(state: RetryCallState) -> float:
+            before = state.attempt_number - 1
+            return float(min(LONGEST_WAIT, 2.0**before) * (0.5 + draws[before] / 2))
+
+        def give_up(state: RetryCallState) -> bool:
+            return state.attempt_number >= ATTEMPTS or self._clock() + wait(state) >= until
+
+        def note(state: RetryCallState) -> None:
+            error = state.outcome.exception() if state.outcome else None
+            notes.append(f"{self._told(error)}; asked again after {wait(state):.1f} s")
+
+        attempts = Retrying(
+            retry=retry_if_exception(_may_pass),
+            wait=wait,
+            stop=give_up,
+            sleep=self._sleep,
+            before_sleep=note,
+            reraise=True,
+        )
+        try:
+            # One retry layer: neither LiteLLM nor the client below it is to have its own.
+            response = attempts(
+                lambda: self._complete(
+                    model=self._model,
+                    messages=messages,
+                    timeout=max(1.0, until - self._clock()),
+                    num_retries=0,
+                    max_retries=0,
+                    **self._asked,
+                )
+            )
+        except Exception as error:
+            sentence = f"LiteLLM gets no answer from {self._model!r}: {self._told(error)}"
+            raise BackendError(sentence, retries=len(notes) + 1) from None
+        answer = _completion(response)
+        return replace(
+            answer,
+            text=self._clean(answer.text),
+            reasoning=self._clean(answer.reasoning),
+            stats=replace(answer.stats, retries=len(notes)),
+            notes=tuple(notes),
+        )
+
+    def _told(self, error: BaseException | None) -> str:
+        text = " ".join(self._clean(f"{type(error).__name__}: {error}").split())
+        return text if len(text) <= _SHOWN else f"{text[: _SHOWN - 1]}…"
+
+    def _clean(self, text: str) -> str:
+        for secret in self._secrets:
+            text = text.replace(secret, "***")
+        return text
+
+
+def _may_pass(error: BaseException) -> bool:
+    status = getattr(error, "status_code", None)
+    return isinstance(status, int) and (status in _MAY_PASS or status >= 500)
+
+
+def _completion(response: Any) -> Completion:
+    """The answer in LiteLLM's response, which has the form of OpenAI's."""
+    choice, usage = response.choices[0], getattr(response, "usage", None)
+    message = choice.message
+    return Completion(
+        text=message.content or "",
+        stats=Stats(
+            prompt_tokens=_count(usage, "prompt_tokens"),
+            cached_tokens=_count(getattr(usage, "prompt_tokens_details", None), "cached_tokens"),
+            completion_tokens=_count(usage, "completion_tokens"),
+            reasoning_tokens=_count(getattr(usage, "completion_tokens_details", None), "reasoning_tokens"),
+        ),
+        model=str(getattr(response, "model", "") or ""),
+        finish_reason=str(choice.finish_reason or ""),
+        reasoning=getattr(message, "reasoning_content", None) or "",
+    )
+
+
+def _count(holder: object, name: str) -> int:
+    value = getattr(holder, name, None)
+    return value if isinstance(value, int) and value >= 0 else 0

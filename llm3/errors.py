@@ -86,13 +86,14 @@ class MissingDependency(LLM3Error):
 class BackendError(LLM3Error):
     """The language model cannot be reached or refuses to answer."""
 
-    def __init__(self, text: str, *, retries: int = 0, step_downs: int = 0) -> None:
+    def __init__(self, text: str, *, retries: int = 0, step_downs: int = 0, out_of_time: bool = False) -> None:
         """Take the sentence, and what was spent in vain.
 
         Args:
             text: One line for the user.
             retries: Requests that led to nothing.
             step_downs: Requests that were made again with fewer features.
+            out_of_time: Whether it was given up because `Request.seconds` did not allow another try.
         """
         super().__init__(text)
-        self.retries, self.step_downs = retries, step_downs
+        self.retries, self.step_downs, self.out_of_time = retries, step_downs, out_of_time

@@ -148,7 +148,7 @@ def solve(
             spent = Stats(retries=error.retries, step_downs=error.step_downs, seconds={"model": clock() - asked})
             stats += spent
             observer(CallFailed(number, str(error), spent))
-            stop = budget.used_up(stats, clock() - began)
+            stop = "seconds" if error.out_of_time else budget.used_up(stats, clock() - began)
             if stop:
                 break
             raise

@@ -88,7 +88,12 @@ class HttpBackend(LLMBackend):
             )
         except BackendError as error:
             in_vain = call.requests - call.step_downs
-            raise BackendError(str(error), retries=in_vain, step_downs=call.step_downs) from None
+            raise BackendError(
+                str(error),
+                retries=in_vain,
+                step_downs=call.step_downs,
+                out_of_time=error.out_of_time and request.seconds < settings.deadline,
+            ) from None
         finally:
             self._features = call.features
         retries = call.requests - call.step_downs - 1

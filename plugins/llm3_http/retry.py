@@ -88,7 +88,7 @@ def persist(
         clock: Monotonic seconds.
 
     Raises:
-        BackendError: What the last TryAgain said.
+        BackendError: What the last TryAgain said; out of time where it was not the last attempt.
     """
     draws = rng.random(settings.max_attempts)
 
@@ -116,4 +116,5 @@ def persist(
             sentence += (
                 f"; it asks to wait {seconds(failure.retry_after)}, but this call may only take another {seconds(left)}"
             )
-        raise BackendError(sentence) from None
+        out_of_time = attempts.statistics["attempt_number"] < settings.max_attempts
+        raise BackendError(sentence, out_of_time=out_of_time) from None

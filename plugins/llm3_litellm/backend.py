@@ -102,7 +102,8 @@ class LiteLLMBackend(LLMBackend):
             )
         except Exception as error:
             sentence = f"LiteLLM gets no answer from {self._model!r}: {self._told(error)}"
-            raise BackendError(sentence, retries=len(notes) + 1) from None
+            early = _may_pass(error) and len(notes) + 1 < ATTEMPTS and request.seconds < SECONDS
+            raise BackendError(sentence, retries=len(notes) + 1, out_of_time=early) from None
         answer = _completion(response)
         return replace(
             answer,

@@ -195,6 +195,12 @@ def test_a_call_that_fails_for_lack_of_time_ends_the_run_by_its_budget():
     assert (failed.attempt, failed.error, failed.stats.retries) == (1, "no answer in time.", 3)
 
 
+def test_a_call_that_is_given_up_for_lack_of_time_ends_the_run_by_its_budget_too():
+    model = ScriptedLLM([BackendError("the server is busy.", retries=1, out_of_time=True)])
+    result = play(backend=model, budget=Budget(max_seconds=20))
+    assert (result.stop, result.stats.retries) == ("seconds", 1)
+
+
 def test_the_run_ends_with_the_first_plan_that_reaches_the_goal():
     model = ScriptedLLM([reply(go(1)), ARRIVE, ARRIVE])
     assert len(play(backend=model, budget=Budget(max_llm_calls=3)).attempts) == 2

@@ -55,6 +55,17 @@ def test_the_same_request_is_sent_again(complete, server):
     assert server.received[0] == server.received[1]
 
 
+@pytest.mark.parametrize(
+    ("status", "attempts", "allowed", "out_of_time"),
+    [(503, 5, 0.1, True), (503, 1, 0.1, False), (401, 5, 0.1, False), (503, 5, math.inf, False)],
+)
+def test_a_call_that_the_runs_time_ended_says_so(connect, server, status, attempts, allowed, out_of_time):
+    server.script = (refusal(status),)
+    with pytest.raises(BackendError) as caught:
+        connect(max_attempts=attempts).complete(replace(QUESTION, seconds=allowed))
+    assert caught.value.out_of_time is out_of_time
+
+
 def test_no_wait_is_begun_that_would_end_after_the_deadline(failure, server, time):
     failure(refusal(503), max_attempts=1000, deadline=100.0, longest_wait=8.0)
     assert sum(time.naps) < 100

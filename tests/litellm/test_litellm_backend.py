@@ -113,8 +113,9 @@ def test_what_does_not_pass_is_one_line_that_counts_its_requests(error, requests
 
 def test_a_wait_that_would_end_too_late_is_not_begun():
     library, slept = Library(Busy("slow down")), []
-    with pytest.raises(BackendError):
+    with pytest.raises(BackendError) as caught:
         backend(library, slept).complete(Request(REQUEST.messages, REQUEST.context, seconds=0.1))
+    assert caught.value.out_of_time
     assert (slept, library.asked[0]["timeout"]) == ([], 1.0)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from llm3.interfaces import LLMBackend
 from llm3.testing.faults import REPLY_FAULTS
 from llm3.testing.schedule import Faults
+from llm3.testing.wrapped import WrappedLLM
 from llm3.types import Completion, Request
 
 
@@ -23,7 +24,7 @@ class Spoiler:
         return reply
 
 
-class FaultyLLM(LLMBackend):
+class FaultyLLM(WrappedLLM):
     """Asks another backend, and spoils some of its replies."""
 
     def __init__(self, backend: LLMBackend, faults: Faults) -> None:
@@ -36,32 +37,14 @@ class FaultyLLM(LLMBackend):
         Raises:
             UnknownName: One of the faults is not a reply's.
         """
+        super().__init__(backend)
         faults.check(REPLY_FAULTS)
         self.injected: list[str | None] = []
         """The fault of each reply so far, None for a good one."""
-        self._backend, self._choose, self._spoil = backend, faults.choose, Spoiler(faults)
-
-    @property
-    def is_language_model(self) -> bool:
-        """Whether the other one is a language model."""
-        return self._backend.is_language_model
-
-    @property
-    def notice(self) -> str:
-        """What the other one says."""
-        return self._backend.notice
-
-    @property
-    def last_words(self) -> str:
-        """What the other one says."""
-        return self._backend.last_words
+        self._choose, self._spoil = faults.choose, Spoiler(faults)
 
     def complete(self, request: Request) -> Completion:
         """The other one's reply, or a bad one in its place; raises what the other one raises."""
         good = self._backend.complete(request)
         self.injected.append(self._choose(len(self.injected) + 1))
         return self._spoil(good, self.injected[-1])
-
-    def close(self) -> None:
-        """Close the other one."""
-        self._backend.close()

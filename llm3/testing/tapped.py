@@ -5,30 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from llm3.interfaces import LLMBackend
+from llm3.testing.wrapped import WrappedLLM
 from llm3.types import Completion, Request
 
 
-class Tapped(LLMBackend):
+class Tapped(WrappedLLM):
     """Tells of each request before it passes it on."""
 
     def __init__(self, backend: LLMBackend, learn: Callable[[Request], None]) -> None:
         """Wrap a backend."""
-        self._backend, self._learn = backend, learn
-
-    @property
-    def is_language_model(self) -> bool:
-        """Whether the other one is a language model."""
-        return self._backend.is_language_model
-
-    @property
-    def notice(self) -> str:
-        """What the other one says."""
-        return self._backend.notice
-
-    @property
-    def last_words(self) -> str:
-        """What the other one says."""
-        return self._backend.last_words
+        super().__init__(backend)
+        self._learn = learn
 
     def complete(self, request: Request) -> Completion:
         """The other one's answer."""
@@ -38,7 +25,3 @@ class Tapped(LLMBackend):
     def examine(self) -> str:
         """What the other one finds."""
         return self._backend.examine()
-
-    def close(self) -> None:
-        """Close the other one."""
-        self._backend.close()

@@ -46,8 +46,10 @@ def _given(arguments: Namespace) -> dict[str, Any]:
 
 def _replayed_folder(given: dict[str, Any]) -> Path | None:
     name, _, argument = given.get("llm", "").partition(":")
-    if name != REPLAY or not argument or "domain" in given or Path(argument).is_file():
+    if name != REPLAY or "domain" in given or (argument and Path(argument).is_file()):
         return None
+    if not argument:
+        raise UsageError(f"the backend {REPLAY!r} needs the folder of a run: --llm {REPLAY}:runs/NAME.")
     return Path(argument)
 
 

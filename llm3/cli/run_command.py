@@ -137,6 +137,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
         price = prices.get(config.model or "")
         cost = price.of(result.stats) if price else None
         view.summary(result, record.seconds, folder, cost)
+        if config.max_tokens_total and not result.stats.tokens:
+            view.note("no tokens were counted: the model's server tells of none, so --max-tokens-total did nothing")
         if ready.backend.last_words:
             view.note(ready.backend.last_words)
         if arguments.json:

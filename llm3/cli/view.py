@@ -14,6 +14,7 @@ from llm3.cli.text import discard, printable
 from llm3.types import (
     ActionTried,
     AttemptEnded,
+    CallFailed,
     Failure,
     Outcome,
     PromptSent,
@@ -42,6 +43,7 @@ class RunView:
         """
         self._console = _Console(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
         self._budget = budget
+        self._failed_call = ""
         self._status: Status | None = None
         if self._console.is_terminal and not self._console.is_dumb_terminal and not quiet:
             self._status = Status("", console=self._console)
@@ -65,6 +67,8 @@ class RunView:
         """Show one event."""
         if isinstance(event, PromptSent):
             self._wait(f"attempt {event.attempt} of {self._budget}: asking for a plan")
+        elif isinstance(event, CallFailed):
+            self._failed_call = event.error
         elif isinstance(event, ReplyRead):
             if isinstance(event.proposal, Failure):
                 self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
@@ -91,6 +95,8 @@ class RunView:
             self._line(told if cost is None else f"{told}: {cost:.4g} by the price table")
         if result.stop in ("tokens", "seconds"):
             self._line(f"the budget of {result.stop} is used up", "yellow")
+        if self._failed_call:  # which ended the run by its time, and not as an error
+            self._line(f"the last call got no answer: {self._failed_call}", "red")
         if result.time_limited:
             self._line("the time limit of a query was hit: another run may end differently", "yellow")
         self._line(f"record: {folder}")

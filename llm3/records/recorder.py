@@ -95,6 +95,6 @@ class Recorder:
     def _write(self, name: str, text: str) -> None:
         # Written beside and moved into place: a run that is killed leaves the old file or the new one.
         beside = self.folder / f"{name}.{os.getpid()}.new"
-        with beside.open("x", encoding="utf-8") as file:
+        with beside.open("w", encoding="utf-8") as file:  # a killed process of this number may have left one
             file.write(text)
         beside.replace(self.folder / name)

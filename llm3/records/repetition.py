@@ -18,7 +18,7 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
     """Make a recorded run ready to be solved again, with the replies of its record in place of a model.
 
     What was asked stands in the record: problem, options, method, seed and budget. A limit in seconds is left out,
-    since no time passes with a model; where it ended the run, as many calls are made as then.
+    since no time passes with a model; where it ended the run, the recording ends it in the same place.
 
     Args:
         registry: Where the names are looked up.
@@ -35,7 +35,4 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
 
 
 def _configuration(recorded: RunFile, folder: Path) -> RunConfig:
-    config = replace(recorded.config, llm=f"{REPLAY}:{folder}", options=recorded.options, max_seconds=None)
-    if recorded.stop == "seconds":
-        config = replace(config, max_llm_calls=max(1, recorded.stats.llm_calls))
-    return config
+    return replace(recorded.config, llm=f"{REPLAY}:{folder}", options=recorded.options, max_seconds=None)

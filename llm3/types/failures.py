@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
-from llm3.types.checks import texts
+from llm3.types.checks import finite, texts
 from llm3.types.frozen import FrozenDict
 from llm3.types.stats import Stats
 
@@ -73,6 +73,11 @@ class Contact:
     other_link: str = ""
     """The URDF's name of the robot's link that is touched; empty unless the object is `ITSELF`."""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "depth", finite("the depth of a contact", (self.depth,))[0])
+        for name in ("normal", "point"):
+            object.__setattr__(self, name, finite(f"the {name} of a contact", getattr(self, name)))
+
 
 @dataclass(frozen=True)
 class Failure:
@@ -94,4 +99,7 @@ class Failure:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "objects", texts("the objects of a failure", self.objects))
-        object.__setattr__(self, "measures", FrozenDict(self.measures))
+        finite("the measures of a failure", self.measures.values())
+        object.__setattr__(self, "measures", FrozenDict({name: float(value) for name, value in self.measures.items()}))
+        object.__setattr__(self, "contacts", tuple(self.contacts))
+        object.__setattr__(self, "configuration", finite("the configuration of a failure", self.configuration))

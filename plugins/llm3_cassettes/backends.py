@@ -85,12 +85,13 @@ class FolderReplay(Replay):
         # A last call that the run's time cut short is no part of what can be repeated.
         repeatable = tuple(exchange for exchange in exchanges if exchange.reply) if run.stop else exchanges
         super().__init__(path, repeatable, run.language_model)
-        self._ending = ENDINGS[run.status]
+        self._ending, self._out_of_time = ENDINGS[run.status], run.stop == "seconds"
 
     def _find(self, messages: tuple[Message, ...]) -> Exchange:
         if self._answered == len(self._exchanges):
             asked = _prompts(self._answered)
-            raise BackendError(f"the recording '{self._path}' ends after {asked}: its run {self._ending}.")
+            sentence = f"the recording '{self._path}' ends after {asked}: its run {self._ending}."
+            raise BackendError(sentence, out_of_time=self._out_of_time)
         exchange = self._exchanges[self._answered]
         difference = first_difference(exchange.request.messages, messages)
         if difference:

@@ -19,6 +19,9 @@ from llm3_http.features import features_of
 from llm3_http.retry import persist
 from llm3_http.settings import HttpSettings
 
+EXAMINED = 60.0
+"""Seconds that an examination waits for its answer."""
+
 
 class HttpBackend(LLMBackend):
     """A model behind an HTTP server.
@@ -68,7 +71,7 @@ class HttpBackend(LLMBackend):
 
     def examine(self) -> str:
         """Make one call, as small as the server's ways allow and without retries, and say how it went."""
-        settings = replace(self._settings, max_attempts=1)
+        settings = replace(self._settings, max_attempts=1, read_timeout=min(EXAMINED, self._settings.read_timeout))
         answer = self._answer(question(settings), settings)
         return verdict(answer, self._features, settings)
 

@@ -8,11 +8,14 @@ from dataclasses import dataclass, replace
 from llm3_http.presets import LimitField, Preset, ReplyFormat
 
 _REFUSALS = (400, 422)
-_FORMAT = re.compile(r"response.?format|output.?(config|format)|schema|json|grammar|structured|guided|regex|pattern")
-_OUT_OF_RANGE = re.compile(
-    r"maximum|minimum|\brange\b|\bbetween\b|at most|at least|(less|greater) than|[<>]=?|too (large|long|small|many)"
+_FORMAT = re.compile(
+    r"response.?format|output.?(config|format)|schema|json.?(object|mode)|grammar|structured|guided|regex|\bpattern\b"
 )
-"""A value that is wrong is the user's to set right; only a field that is not taken at all is left out."""
+_NOT_TAKEN = re.compile(
+    r"unsupported|not (yet )?support|n't support|deprecated|not permitted|unknown|unrecogni[sz]ed|unexpected|"
+    r"not (allowed|available|accepted|recogni[sz]ed)|extra (inputs|fields)|only the default|cannot be (used|set)"
+)
+"""How servers word that they do not take a field at all. A value that is wrong is the user's to set right."""
 CONTEXT = re.compile(
     r"context[ _](length|window|size)|prompt is too long|(input|prompt) token.*exceed|too many (input )?tokens",
     re.IGNORECASE,
@@ -63,11 +66,11 @@ def fewer_features(features: Features, status: int, message: str) -> Features | 
     said = message.lower()
     if status not in _REFUSALS or CONTEXT.search(said):
         return None
-    out_of_range = _OUT_OF_RANGE.search(said)
-    if features.temperature and "temperature" in said and not out_of_range:
+    not_taken = _NOT_TAKEN.search(said)
+    if features.temperature and "temperature" in said and not_taken:
         return replace(features, temperature=False)
     used, *others = features.limit_fields
-    if features.limit and others and re.search(rf"\b{used}\b", said) and not out_of_range:
+    if features.limit and others and re.search(rf"\b{used}\b", said) and not_taken:
         return replace(features, limit_fields=tuple(others))
     _, *left = features.reply_formats
     if left and features.reply_format != "text" and _FORMAT.search(said):

@@ -17,10 +17,14 @@ def text_of(document: Mapping[str, Any], name: str) -> str:
     return value if isinstance(value, str) else ""
 
 
+MOST = 10**12
+"""No model reads or writes so many tokens at a time: a larger number is none."""
+
+
 def count(document: Mapping[str, Any], name: str) -> int:
-    """A field that is a whole number of at least 0, or 0."""
+    """A field that is a whole number from 0 to `MOST`, or 0."""
     value = document.get(name)
-    return value if isinstance(value, int) and not isinstance(value, bool) and value >= 0 else 0
+    return value if isinstance(value, int) and not isinstance(value, bool) and 0 <= value <= MOST else 0
 
 
 def texts_of(content: object, types: Collection[str]) -> str:

@@ -50,8 +50,11 @@ class Preset:
         except UsageError as error:
             raise ValueError(str(error)) from None
         for name in self.key_variables:
-            if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):
-                raise ValueError(f"key_variables holds {name!r}, which is no name of an environment variable")
+            if not re.fullmatch(r"[A-Z_][A-Z0-9_]*", name):  # it may be a key, so it is not shown
+                raise ValueError(
+                    "key_variables must be names of environment variables, of capital letters, digits and underscores, "
+                    "such as LAB_API_KEY; one of them is none"
+                )
         if not self.reply_formats or len(set(self.reply_formats)) < len(self.reply_formats):
             raise ValueError(f"reply_formats must name different formats, not {list(self.reply_formats)}")
         if self.max_reply_tokens is not None and self.max_reply_tokens < 1:

@@ -9,6 +9,7 @@ from llm3.errors import BackendError
 from llm3.types import Completion
 from llm3_http.dialect import Dialect
 from llm3_http.fields import mapping, text_of
+from llm3_http.retry import TryAgain, may_pass
 from llm3_http.settings import HttpSettings
 from llm3_http.wording import quoted
 
@@ -22,17 +23,29 @@ def read_completion(body: bytes, settings: HttpSettings, dialect: Dialect) -> Co
     ``"refusal"``).
 
     Raises:
-        BackendError: The body holds no answer.
+        TryAgain: It broke off, or holds an error that may pass.
+        BackendError: It holds no answer.
     """
     document = _parsed(body)
+    if document is None and body.lstrip().startswith(b"{") and not body.rstrip().endswith(b"}"):
+        raise TryAgain(
+            f"the server at {settings.base_url} broke off its answer: try again later, or look into the server's log",
+            "the answer broke off",
+        )
     if document is None:
         raise _refused("sent no JSON object: check LLM3_BASE_URL", body, settings)
     if document.get("error"):
-        raise _refused("reports an error: check --model", body, settings)
+        raise _reported(body, settings, mapping(document["error"]).get("code"))
     completion = dialect.completion(document, settings)
     if completion is None:
         raise _refused(f"sent no answer of {dialect.path}: check LLM3_BASE_URL", body, settings)
     return completion
+
+
+def _reported(body: bytes, settings: HttpSettings, code: object) -> Exception:
+    """An error in a body whose status says success, as OpenRouter sends it; its code may be a status that passes."""
+    refused = _refused("reports an error: check --model", body, settings)
+    return TryAgain(str(refused), f"error {code}") if isinstance(code, int) and may_pass(code) else refused
 
 
 def server_message(body: bytes) -> str:

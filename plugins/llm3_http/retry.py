@@ -1,4 +1,4 @@
-"""The one retry layer: how long to wait. What may pass by itself is in `statuses`, the figures are in `settings`."""
+"""The one retry layer: what may pass by itself, and how long to wait. The figures are in `settings`."""
 
 from __future__ import annotations
 
@@ -19,6 +19,14 @@ from llm3_http.wording import seconds
 T = TypeVar("T")
 _LONGEST = 1e9
 """Seconds, some thirty years: whatever is longer reads as this."""
+
+
+_BUSY = frozenset({408, 409, 425, 429})
+
+
+def may_pass(status: int) -> bool:
+    """Whether a server that answers with this status may answer otherwise soon."""
+    return status in _BUSY or status >= 500
 
 
 class TryAgain(Exception):

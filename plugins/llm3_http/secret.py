@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from html.entities import html5
 
 from llm3.errors import UsageError
 
@@ -12,9 +13,14 @@ _PLACEHOLDER = 8
 
 
 def _spellings(character: str) -> str:
-    """A pattern for a character as it is, and as JSON and Python escape it."""
+    """A pattern for a character as it is, and as JSON, Python, addresses and HTML escape it."""
     code = f"{ord(character):02x}"
-    return rf"(?:{re.escape(character)}|\\+(?i:u00{code}|x{code}|U000000{code}))"
+    entities = [re.escape(f"&{name};") for name, value in html5.items() if value == character and name[-1] != ";"]
+    named = "".join(f"|{entity}" for entity in entities)
+    return (
+        rf"(?:\\*{re.escape(character)}|\\+(?i:u00{code}|x{code}|U000000{code})|(?i:%(?:25)*{code})"
+        rf"|(?i:&#0*{ord(character)};|&#x0*{code};){named})"
+    )
 
 
 class Secret:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from llm3.errors import UsageError
+from llm3.errors import UnknownName, UsageError
 from llm3.interfaces import BackendSettings
 from llm3_http.address import checked_address, masked, same_address
 from llm3_http.presets import Preset, known_presets
@@ -120,10 +120,13 @@ def choose(model: str, address: str, presets: Mapping[str, Preset]) -> tuple[Pre
 
     Raises:
         UsageError: The address is none.
+        UnknownName: Without an address, there is no preset of this name.
     """
     prefix, slash, rest = model.partition("/")
     named = presets.get(prefix) if slash else None
     if not address:
+        if slash and not named:  # no model of OpenAI has a slash in its name, and a key must not go astray
+            raise UnknownName("preset", prefix, presets, remark=f"{BASE_URL} names a server of your own.")
         return (named, rest) if named else (presets["openai"], model)
     address = checked_address(address, BASE_URL)
     if named and same_address(named.base_url, address):

@@ -8,12 +8,10 @@ from llm3.errors import BackendError
 from llm3_http.address import masked
 from llm3_http.features import CONTEXT
 from llm3_http.reply import server_message
-from llm3_http.retry import TryAgain, read_retry_after
+from llm3_http.retry import TryAgain, may_pass, read_retry_after
 from llm3_http.settings import HttpSettings
 from llm3_http.transport import Reply
 from llm3_http.wording import quoted
-
-_MAY_PASS = frozenset({408, 409, 425, 429})
 
 
 def check_status(reply: Reply, settings: HttpSettings, *, attempt: int, now: float) -> None:
@@ -35,7 +33,7 @@ def check_status(reply: Reply, settings: HttpSettings, *, attempt: int, now: flo
     message = settings.clean(server_message(reply.body))
     says = quoted(message)
     server = f"the server at {settings.base_url}"
-    if status in _MAY_PASS or status >= 500:
+    if may_pass(status):
         tries = "1 try" if attempt == 1 else f"{attempt} tries"
         raise TryAgain(
             f"{server} answers {status} after {tries}: try again later, or give another --model{says}",

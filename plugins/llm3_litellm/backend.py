@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
+from urllib.parse import quote
 
 import numpy as np
 from tenacity import RetryCallState, Retrying, retry_if_exception
@@ -22,8 +24,11 @@ SECONDS = 900.0
 """What one completion may take, all requests and waits together."""
 _MAY_PASS = frozenset({408, 409, 425, 429})
 _SECRET_NAMES = ("KEY", "TOKEN", "SECRET", "PASSWORD")
+"""How names of environment variables end that hold secrets."""
 _PLACEHOLDER = 8  # shorter values are no secrets
 _SHOWN = 200
+_SHORTEST = 0.001  # seconds: a timeout of zero would mean none
+_MOST = 10**12  # tokens; a larger number is none
 
 Complete = Callable[..., Any]
 """``litellm.completion``."""
@@ -55,11 +60,12 @@ class LiteLLMBackend(LLMBackend):
         self._model, self._complete = settings.model or "", complete
         asked = {"temperature": settings.temperature, "max_tokens": settings.max_reply_tokens}
         self._asked = {name: value for name, value in asked.items() if value is not None}
-        self._secrets = [
+        secrets = {
             value
             for name, value in environment.items()
-            if any(part in name.upper() for part in _SECRET_NAMES) and len(value) >= _PLACEHOLDER
-        ]
+            if name.upper().endswith(_SECRET_NAMES) and len(value) >= _PLACEHOLDER
+        }
+        self._secrets = sorted(secrets, key=len, reverse=True)  # one may be the beginning of another
         self._rng, self._sleep, self._clock = rng, sleep, clock
 
     def complete(self, request: Request) -> Completion:
@@ -94,7 +100,7 @@ class LiteLLMBackend(LLMBackend):
                 lambda: self._complete(
                     model=self._model,
                     messages=messages,
-                    timeout=max(1.0, until - self._clock()),
+                    timeout=max(_SHORTEST, until - self._clock()),
                     num_retries=0,
                     max_retries=0,
                     **self._asked,
@@ -105,10 +111,13 @@ class LiteLLMBackend(LLMBackend):
             early = _may_pass(error) and len(notes) + 1 < ATTEMPTS and request.seconds < SECONDS
             raise BackendError(sentence, retries=len(notes) + 1, out_of_time=early) from None
         answer = _completion(response)
+        if answer is None:
+            sentence = f"LiteLLM's answer from {self._model!r} has no message in it: give another --model"
+            raise BackendError(sentence, retries=len(notes) + 1)
+        texts = ("text", "reasoning", "model", "finish_reason")
         return replace(
             answer,
-            text=self._clean(answer.text),
-            reasoning=self._clean(answer.reasoning),
+            **{name: self._clean(getattr(answer, name)) for name in texts},
             stats=replace(answer.stats, retries=len(notes)),
             notes=tuple(notes),
         )
@@ -119,8 +128,9 @@ class LiteLLMBackend(LLMBackend):
 
     def _clean(self, text: str) -> str:
         for secret in self._secrets:
-            text = text.replace(secret, "***")
-        return text
+            for spelling in (secret, json.dumps(secret)[1:-1], quote(secret, safe="")):
+                text = text.replace(spelling, "***")
+        return text.encode(errors="replace").decode()
 
 
 def _may_pass(error: BaseException) -> bool:
@@ -128,24 +138,34 @@ def _may_pass(error: BaseException) -> bool:
     return isinstance(status, int) and (status in _MAY_PASS or status >= 500)
 
 
-def _completion(response: Any) -> Completion:
-    """The answer in LiteLLM's response, which has the form of OpenAI's."""
-    choice, usage = response.choices[0], getattr(response, "usage", None)
-    message = choice.message
+def _completion(response: Any) -> Completion | None:
+    """The answer in LiteLLM's response, which has the form of OpenAI's; None where there is none."""
+    choices = getattr(response, "choices", None)
+    choice, usage = (choices[0] if isinstance(choices, list) and choices else None), getattr(response, "usage", None)
+    message = getattr(choice, "message", None)
+    if message is None:
+        return None
     return Completion(
-        text=message.content or "",
+        text=_text(message, "content"),
         stats=Stats(
             prompt_tokens=_count(usage, "prompt_tokens"),
             cached_tokens=_count(getattr(usage, "prompt_tokens_details", None), "cached_tokens"),
             completion_tokens=_count(usage, "completion_tokens"),
             reasoning_tokens=_count(getattr(usage, "completion_tokens_details", None), "reasoning_tokens"),
         ),
-        model=str(getattr(response, "model", "") or ""),
-        finish_reason=str(choice.finish_reason or ""),
-        reasoning=getattr(message, "reasoning_content", None) or "",
+        model=_text(response, "model"),
+        finish_reason=_text(choice, "finish_reason"),
+        reasoning=_text(message, "reasoning_content"),
     )
+
+
+def _text(holder: object, name: str) -> str:
+    value = getattr(holder, name, None)
+    if isinstance(value, list):  # of parts, as some providers have it
+        value = "".join(part.get("text") or "" for part in value if isinstance(part, dict))
+    return value if isinstance(value, str) else ""
 
 
 def _count(holder: object, name: str) -> int:
     value = getattr(holder, name, None)
-    return value if isinstance(value, int) and value >= 0 else 0
+    return value if isinstance(value, int) and 0 <= value <= _MOST else 0

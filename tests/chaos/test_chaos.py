@@ -47,7 +47,8 @@ def check_end(episode):
         "solved": episode.result.goal.achieved,
         "calls": stats["llm_calls"] == config.max_llm_calls,
         "tokens": stats["prompt_tokens"] + stats["completion_tokens"] >= (config.max_tokens_total or float("inf")),
-        "seconds": record["seconds"] >= (config.max_seconds or float("inf")),
+        # Or the last call was given up early, as the time left allowed no further try.
+        "seconds": config.max_seconds is not None and (record["seconds"] >= config.max_seconds or bool(failed)),
     }[record["stop"]]
 
 

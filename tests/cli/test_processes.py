@@ -109,4 +109,4 @@ def test_no_server_is_one_line_and_the_record_is_intact(cwd, plugins):
     told = json.loads((cwd / "here/run.json").read_text(encoding="utf-8"))
     assert (told["status"], told["error"]) == ("error", sentence)
     events = (cwd / "here/events.jsonl").read_text(encoding="utf-8").splitlines()
-    assert [json.loads(line).get("event") for line in events] == [None, "RunStarted", "PromptSent"]
+    assert [json.loads(line).get("event") for line in events] == [None, "RunStarted", "PromptSent", "CallFailed"]

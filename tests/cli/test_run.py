@@ -236,3 +236,32 @@ def test_a_price_table_that_is_none_is_refused_before_anything_is_spent(corridor
     ended = corridor("--prices prices.json --out here")
     assert (ended.code, ended.err) == (3, "llm3: error: prices.json: Expected `object`, got `array`\n")
     assert not (cwd / "here").exists()
+
+
+SILENT = """\
+from llm3 import hookimpl
+from llm3.errors import BackendError
+from llm3.interfaces import LLMBackend
+
+class Silent(LLMBackend):
+    def complete(self, request):
+        raise BackendError("no server answers.", retries=1, out_of_time=True)
+
+@hookimpl
+def llm3_backends():
+    return {"silent": lambda settings: Silent()}
+"""
+
+
+def test_a_run_that_waits_in_vain_until_its_time_is_over_says_for_what(corridor, install):
+    install("llm3_silent", SILENT)
+    ended = corridor("--llm silent --max-seconds 60 --json")
+    assert (ended.code, json.loads(ended.out)["stop"]) == (1, "seconds")
+    assert "the last call got no answer: no server answers." in ended.err.splitlines()
+    assert ended.err.count("no server answers") == 1
+
+
+def test_tokens_that_nobody_counts_are_no_budget_and_that_is_said(corridor):
+    ended = corridor("--max-tokens-total 10")
+    line = "no tokens were counted: the model's server tells of none, so --max-tokens-total did nothing"
+    assert line in ended.err.splitlines()

@@ -47,6 +47,14 @@ def test_every_step_gives_up_one_thing_so_that_steps_come_to_an_end(features, st
         ("Invalid schema for response_format 'reply': In context=(), 'pattern' is not permitted", "reply_formats"),
         ("Grammar error: Failed to convert the grammar from GBNF to Lark", "reply_formats"),
         ('Invalid JSON payload received. Unknown name "pattern": Cannot find field.', "reply_formats"),
+        ("Failed to generate JSON. Please adjust your prompt.", None),
+        ("model 'qwen2.5-json-7b' does not exist", None),
+        ("We could not parse the JSON body of your request.", None),
+        ("Invalid temperature: 5", None),
+        ("temperature should be in [0, 2]", None),
+        ("temperature must not exceed 2", None),
+        ("max_tokens cannot exceed 4096", None),
+        ("max_tokens must be a positive integer", None),
         ("output_config.format: Extra inputs are not permitted", "reply_formats"),
         ("This model does not support structured outputs", "reply_formats"),
         ("Unsupported value: 'temperature' does not support 0.16 with this model. Only the default (1)", "temperature"),
@@ -171,7 +179,8 @@ def test_a_refused_limit_is_sent_under_its_other_name(complete, server, first, s
 
 
 def test_all_of_it_can_be_refused_at_once(complete, server):
-    script = [refusal(400, word) for word in ("json_schema", "temperature", "json_object", "max_tokens")]
+    refused = ("json_schema", "temperature", "json_object", "max_tokens")
+    script = [refusal(400, f"{field} is not supported") for field in refused]
     read = complete(*script, answer(), question=STRUCTURED, temperature=1.0, max_reply_tokens=9)
     assert (read.stats.step_downs, len(server.received)) == (4, 5)
     assert set(server.received[-1].payload) == {"model", "messages", "max_completion_tokens"}

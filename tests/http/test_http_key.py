@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
 import logging
 import traceback
@@ -125,6 +126,17 @@ def test_a_placeholder_is_not_hunted_in_texts(complete, placeholder):
 
 @given(st.data())
 def test_a_key_is_hidden_also_where_some_of_its_characters_are_escaped(data):
-    escapes = (lambda c: c, lambda c: f"\\u{ord(c):04x}", lambda c: f"\\u{ord(c):04X}", lambda c: f"\\x{ord(c):02x}")
+    escapes = (
+        lambda c: c,
+        lambda c: c if c.isalnum() else f"\\{c}",
+        lambda c: f"\\u{ord(c):04x}",
+        lambda c: f"\\u{ord(c):04X}",
+        lambda c: f"\\x{ord(c):02x}",
+        lambda c: f"%{ord(c):02X}",
+        lambda c: f"%25{ord(c):02x}",
+        lambda c: f"&#{ord(c)};",
+        lambda c: f"&#x{ord(c):X};",
+        html.escape,
+    )
     spelt = "".join(data.draw(st.sampled_from(escapes))(c) for c in CANARY)
     assert Secret(CANARY).redact(f"before {spelt} after") == "before *** after"

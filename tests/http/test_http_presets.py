@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from llm3.errors import InputError, UsageError
+from llm3.errors import InputError, UnknownName, UsageError
 from llm3.interfaces import BackendSettings
 from llm3.jsonio import dumps, loads
 from llm3_http.address import same_address
@@ -77,7 +77,23 @@ def test_what_stands_before_the_first_slash_names_the_preset(name, model):
     assert (settings.preset, settings.model) == (SHIPPED[name], model)
 
 
-@given(model=st.text(min_size=1).filter(str.strip).filter(lambda text: text.partition("/")[0] not in SHIPPED))
+@given(prefix=st.text().filter(lambda text: "/" not in text and text not in SHIPPED), model=st.text())
+def test_a_preset_that_is_none_is_named_and_no_key_goes_to_another(prefix, model):
+    with pytest.raises(UnknownName) as caught:
+        chosen(f"{prefix}/{model}")
+    assert "Known: anthropic, gemini, llamacpp, lmstudio, ollama, openai, openrouter, vllm." in str(caught.value)
+
+
+def test_a_mistyped_preset_is_one_line():
+    with pytest.raises(UnknownName) as caught:
+        chosen("ollma/qwen3")
+    assert str(caught.value) == (
+        "unknown preset 'ollma'; did you mean 'ollama' or 'vllm' or 'llamacpp'? Known: anthropic, gemini, llamacpp, "
+        "lmstudio, ollama, openai, openrouter, vllm. LLM3_BASE_URL names a server of your own."
+    )
+
+
+@given(model=st.text(min_size=1).filter(str.strip).filter(lambda text: "/" not in text))
 def test_any_other_name_is_one_of_openais_models(model):
     settings = chosen(model)
     assert (settings.preset, settings.model) == (SHIPPED["openai"], model)
@@ -174,7 +190,13 @@ def test_the_limit_of_a_reply_is_the_users_or_else_the_servers(own):
         ),
         (
             {"a": {"base_url": LOCAL, "key_variables": ["sk-123"]}},
-            "key_variables holds 'sk-123', which is no name of an environment variable",
+            "key_variables must be names of environment variables, of capital letters, digits and underscores, such as "
+            "LAB_API_KEY; one of them is none",
+        ),
+        (
+            {"a": {"base_url": LOCAL, "key_variables": ["LAB_API_KEY", "sk_123"]}},
+            "key_variables must be names of environment variables, of capital letters, digits and underscores, such as "
+            "LAB_API_KEY; one of them is none",
         ),
         ({"a": {"base_url": LOCAL, "reply_formats": []}}, "reply_formats must name different formats, not []"),
         (

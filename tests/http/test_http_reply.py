@@ -16,6 +16,7 @@ from llm3_http.dialect import Dialect
 from llm3_http.messages import Messages
 from llm3_http.presets import Preset
 from llm3_http.reply import read_completion, server_message
+from llm3_http.retry import TryAgain
 from llm3_http.settings import HttpSettings
 from llm3_http.thinking import apart
 from llm3_http.wording import LONGEST, cut, one_line
@@ -40,7 +41,7 @@ DIALECTS = st.sampled_from([ChatCompletions(), Messages()])
 def test_any_body_gives_a_completion_or_one_line(body: bytes, dialect: Dialect) -> None:
     try:
         read = read_completion(body, SETTINGS, dialect)
-    except BackendError as error:
+    except (BackendError, TryAgain) as error:
         sentence = str(error)
     else:
         sentence = read.model + read.finish_reason
@@ -217,3 +218,24 @@ def test_a_quotation_is_one_printable_line_and_short(text):
     assert line.isprintable()
     assert len(line) <= LONGEST
     assert one_line(line) == line
+
+
+@pytest.mark.parametrize(
+    "body", [b'{"id": "chatcmpl-1", "choi', b'{"error": {"code": 429}}', b'{"error": {"code": 502}}']
+)
+def test_a_body_that_broke_off_or_holds_a_passing_error_is_asked_for_again(complete, server, body):
+    read = complete(answer(body), answer())
+    assert (read.text, read.stats.retries, len(server.received)) == ("a plan", 1, 2)
+
+
+def test_a_body_that_always_breaks_off_is_told(failure, server):
+    assert failure(answer(b'{"id": "chatcmpl-1", "choi'), max_attempts=2) == (
+        f"the server at {server.url} broke off its answer: try again later, or look into the server's log"
+    )
+    assert len(server.received) == 2
+
+
+@pytest.mark.parametrize("tokens", [10**13, 10**400, -1, True, "7", None, 1.5], ids=lambda value: str(value)[:5])
+def test_a_count_that_makes_no_sense_is_none(complete, tokens):
+    body = {"choices": [{"message": {"content": "a plan"}}], "usage": {"prompt_tokens": tokens}}
+    assert complete(answer(json.dumps(body, default=str).encode())).stats.prompt_tokens == 0

@@ -116,16 +116,34 @@ def test_a_wait_that_would_end_too_late_is_not_begun():
     with pytest.raises(BackendError) as caught:
         backend(library, slept).complete(Request(REQUEST.messages, REQUEST.context, seconds=0.1))
     assert caught.value.out_of_time
-    assert (slept, library.asked[0]["timeout"]) == ([], 1.0)
+    assert (slept, library.asked[0]["timeout"]) == ([], 0.1)
 
 
 def test_keys_are_nowhere():
-    environment = {"SOME_API_KEY": KEY, "HOME": "/home/me"}
+    environment = {"SOME_API_KEY": KEY, "A_TOKEN": KEY[:12], "HOME": "/home/me", "KEYMAP": "red_block"}
+    assert backend(Library(answer("red_block")), environment=environment).complete(REQUEST).text == "red_block"
     done = backend(Library(Busy(f"bad {KEY}"), answer(f"I am {KEY}")), environment=environment).complete(REQUEST)
     assert KEY not in repr(done)
     with pytest.raises(BackendError) as caught:
         backend(Library(Refused(f"bad {KEY}")), environment=environment).complete(REQUEST)
     assert str(caught.value).endswith("Refused: bad ***")
+
+
+@pytest.mark.parametrize("choices", [[], None, [SimpleNamespace(message=None)]])
+def test_an_answer_without_a_message_is_one_line(choices):
+    with pytest.raises(BackendError) as caught:
+        backend(Library(SimpleNamespace(choices=choices))).complete(REQUEST)
+    assert str(caught.value) == (
+        "LiteLLM's answer from 'bedrock/some-model' has no message in it: give another --model"
+    )
+    assert caught.value.retries == 1
+
+
+def test_content_in_parts_is_joined_and_half_a_surrogate_pair_replaced():
+    odd = answer([{"type": "text", "text": "a "}, {"type": "text", "text": "plan"}, {"type": "image"}])
+    odd.model = "\ud800"
+    told = backend(Library(odd)).complete(REQUEST)
+    assert (told.text, told.model) == ("a plan", "?")
 
 
 @pytest.mark.parametrize(

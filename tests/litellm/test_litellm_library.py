@@ -34,7 +34,8 @@ KEY = "sk-canary-0123456789"
 
 
 def ask(server: LLMServer) -> dict:
-    environment = {**os.environ, "OPENAI_API_BASE": server.url, "OPENAI_API_KEY": KEY, "NO_PROXY": "127.0.0.1"}
+    settings = {"OPENAI_API_BASE": server.url, "OPENAI_API_KEY": KEY, "NO_PROXY": "127.0.0.1"}
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **settings}
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM], env=environment, capture_output=True, text=True, timeout=120, check=False
     )

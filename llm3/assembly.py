@@ -284,6 +284,7 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
             run=config.run_name,
         ),
     )
+    config = replace(config, **backend.recorded)
     try:
         problem = open_problem(domain, instance, config.options, window)
     except BaseException:

@@ -39,7 +39,7 @@ class Price:
 
 
 def read_prices(path: Path) -> Mapping[str, Price]:
-    """A price table, by the model's name as `--model` has it or as its server names it.
+    """A price table, by the model's name as `--model` has it.
 
     Raises:
         InputError: The file cannot be read, or is none.

@@ -18,6 +18,7 @@ from llm3.cli.problem_arguments import (
     path,
 )
 from llm3.cli.text import emit
+from llm3.errors import OutputExists
 from llm3.jsonio import dumps
 from llm3.prices import read_prices
 from llm3.records import CassetteRecorder, Recorder, check_cassette, create_default_folder, create_folder
@@ -102,8 +103,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command: 0 solved, 1 not solved."""
     from llm3.cli.view import RunView  # rich takes a while to import
 
-    if arguments.record:
-        check_cassette(arguments.record, arguments.force)
+    _check_places(arguments)
     prices = read_prices(arguments.prices) if arguments.prices else {}
     registry = Registry.discover()
     with assembled(registry, arguments) as ready:
@@ -146,6 +146,16 @@ def run(arguments: Namespace, out: TextIO) -> int:
         else:
             emit("".join(f"{step.action}\n" for step in result.plan), out)
         return 0 if result.solved else 1
+
+
+def _check_places(arguments: Namespace) -> None:
+    """See that what is to be written overwrites nothing but an earlier result."""
+    _, _, source = (arguments.llm or "").partition(":")
+    for flag, place in (("--record", arguments.record), ("--out", arguments.out)):
+        if source and place and Path(source).resolve() == place.resolve():
+            raise OutputExists(f"'{place}' is what is replayed: give another {flag}.")
+    if arguments.record:
+        check_cassette(arguments.record, arguments.force)
 
 
 def _summary(config: RunConfig, result: Result, seconds: float, folder: Path, cost: float | None) -> dict[str, object]:

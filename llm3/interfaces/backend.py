@@ -5,6 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -59,6 +60,11 @@ class LLMBackend(ABC):
         Raises:
             BackendError: There is no answer to be had.
         """
+
+    @property
+    def recorded(self) -> Mapping[str, Any]:
+        """What a recording says of its model: fields of a `RunConfig`, in place of what the user left out."""
+        return FrozenDict()
 
     @property
     def last_words(self) -> str:

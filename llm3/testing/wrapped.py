@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from llm3.interfaces import LLMBackend
 
 
@@ -21,6 +24,11 @@ class WrappedLLM(LLMBackend):
     def notice(self) -> str:
         """What the backend inside says."""
         return self._backend.notice
+
+    @property
+    def recorded(self) -> Mapping[str, Any]:
+        """What the backend inside says."""
+        return self._backend.recorded
 
     @property
     def last_words(self) -> str:

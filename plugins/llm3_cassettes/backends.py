@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
+from collections.abc import Mapping
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from llm3 import LLMBackend
 from llm3.errors import BackendError
@@ -124,6 +127,11 @@ class CassetteReplay(Replay):
         super().__init__(path, mine, any(exchange.language_model for exchange in mine or everything))
         self._everything, self._run, self._settings = everything, run, settings
         self._asked: Counter[str] = Counter()
+
+    @property
+    def recorded(self) -> Mapping[str, Any]:
+        """The settings of the model, which a new recording keeps."""
+        return asdict(self._settings)
 
     def _find(self, messages: tuple[Message, ...]) -> Exchange:
         settings = self._settings

@@ -14,7 +14,7 @@ from llm3_cassettes.model_settings import ModelSettings, chosen, settings_of
 def open_recording(settings: BackendSettings) -> Replay:
     """A backend that answers from a cassette or, given a run's folder, from its record.
 
-    All of it is read now, so that a record may be overwritten by its own repetition.
+    All of it is read now, so that damage is told before anything is overwritten.
 
     Raises:
         UsageError: Nothing is named, or another model than the recorded one is asked for.

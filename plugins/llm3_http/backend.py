@@ -18,6 +18,7 @@ from llm3_http.examination import question, verdict
 from llm3_http.features import features_of
 from llm3_http.retry import persist
 from llm3_http.settings import HttpSettings
+from llm3_http.watchdog import watched
 
 EXAMINED = 60.0
 """Seconds that an examination waits for its answer."""
@@ -60,6 +61,7 @@ class HttpBackend(LLMBackend):
         self._settings, self._rng = settings, rng
         self._dialect = dialect_of(settings.preset)
         self._session = session_factory()
+        self._watchdog = watched(self._session)
         self._sleep, self._clock, self._wall_clock = sleep, clock, wall_clock
         self._features = features_of(
             settings.preset, limit=settings.reply_limit is not None, temperature=settings.temperature is not None
@@ -78,7 +80,7 @@ class HttpBackend(LLMBackend):
     def _answer(self, request: Request, settings: HttpSettings) -> Completion:
         until = self._clock() + min(settings.deadline, request.seconds)
         features = replace(self._features, structured=bool(request.schema))
-        call = Call(self._session, settings, self._dialect, request, features)
+        call = Call(self._session, self._watchdog, settings, self._dialect, request, features)
         try:
             completion = persist(
                 lambda attempt: call.ask(attempt, until=until, clock=self._clock, wall_clock=self._wall_clock),

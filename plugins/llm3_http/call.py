@@ -14,6 +14,7 @@ from llm3_http.reply import read_completion, server_message
 from llm3_http.settings import HttpSettings
 from llm3_http.statuses import check_status
 from llm3_http.transport import Reply, exchange
+from llm3_http.watchdog import Watchdog
 
 
 class Call:
@@ -22,13 +23,15 @@ class Call:
     def __init__(
         self,
         session: requests.Session,
+        watchdog: Watchdog,
         settings: HttpSettings,
         dialect: Dialect,
         request: Request,
         features: Features,
     ) -> None:
         """Make a call; nothing is sent yet."""
-        self._session, self._settings, self._dialect, self._request = session, settings, dialect, request
+        self._session, self._watchdog, self._settings = session, watchdog, settings
+        self._dialect, self._request = dialect, request
         self.features = features
         """What the server has not refused so far."""
         self.notes: list[str] = []
@@ -72,4 +75,4 @@ class Call:
 
     def _exchange(self, until: float, clock: Callable[[], float]) -> Reply:
         payload = self._dialect.payload(self._settings, self.features, self._request)
-        return exchange(self._session, self._settings, self._dialect, payload, until=until, clock=clock)
+        return exchange(self._session, self._watchdog, self._settings, self._dialect, payload, until=until, clock=clock)

@@ -16,6 +16,7 @@ from llm3_http.dialect import Dialect
 from llm3_http.retry import TryAgain
 from llm3_http.secret import Secret
 from llm3_http.settings import HttpSettings
+from llm3_http.watchdog import Watchdog
 from llm3_http.wording import quoted, seconds
 
 _PIECE = 65_536
@@ -54,6 +55,7 @@ class Key(AuthBase):
 
 def exchange(
     session: requests.Session,
+    watchdog: Watchdog,
     settings: HttpSettings,
     dialect: Dialect,
     payload: Mapping[str, Any],
@@ -63,11 +65,11 @@ def exchange(
 ) -> Reply:
     """Send one request and read its answer.
 
-    The whole body must arrive before the time is over. The clock is looked at after each piece, and the wait for one
-    piece has the same limit, so a server that sends byte by byte is cut off after at most twice that time.
+    The whole answer must arrive before the time is over, or the connection is cut off.
 
     Args:
         session: Where connections are kept.
+        watchdog: Of the session.
         settings: The server and its limits.
         dialect: How it is spoken to.
         payload: The request's JSON.
@@ -80,23 +82,26 @@ def exchange(
     """
     start = clock()
     limit = max(_SHORTEST, min(settings.read_timeout, until - start))
-    try:
-        with session.post(
-            f"{settings.base_url}{dialect.path}",
-            json=payload,
-            # Answers are short, and a compressed one could be a bomb.
-            headers={"Accept": "application/json", "Accept-Encoding": "identity", **dialect.headers},
-            auth=Key(settings.key, dialect),
-            timeout=(min(settings.connect_timeout, limit), limit),
-            allow_redirects=False,
-            stream=True,
-        ) as response:
-            pieces = _pieces(response, lambda: clock() - start > limit)
-            body = _whole(pieces, settings) if 200 <= response.status_code < 300 else _beginning(pieces)
-            return Reply(response.status_code, response.headers, body)
-    except (OSError, urllib3.exceptions.HTTPError) as error:
-        # The library's own words may quote the server, and the server the key: they end here.
-        raise _failure(error, settings, limit) from None
+    with watchdog.cutting_off_after(limit) as alarm:
+        try:
+            with session.post(
+                f"{settings.base_url}{dialect.path}",
+                json=payload,
+                # Answers are short, and a compressed one could be a bomb.
+                headers={"Accept": "application/json", "Accept-Encoding": "identity", **dialect.headers},
+                auth=Key(settings.key, dialect),
+                timeout=(min(settings.connect_timeout, limit), limit),
+                allow_redirects=False,
+                stream=True,
+            ) as response:
+                pieces = _pieces(response, lambda: alarm.went_off or clock() - start > limit)
+                body = _whole(pieces, settings) if 200 <= response.status_code < 300 else _beginning(pieces)
+                if alarm.went_off:
+                    raise requests.ReadTimeout
+                return Reply(response.status_code, response.headers, body)
+        except (OSError, urllib3.exceptions.HTTPError) as error:
+            # The library's own words may quote the server, and the server the key: they end here.
+            raise _failure(requests.ReadTimeout() if alarm.went_off else error, settings, limit) from None
 
 
 def _pieces(response: requests.Response, late: Callable[[], bool]) -> Iterator[bytes]:

@@ -54,11 +54,22 @@ def test_a_repetition_can_be_repeated_and_recorded(command, recorded, cwd):
     assert exchanges("second.jsonl") == exchanges("tape.jsonl")
 
 
-def test_a_run_may_be_repeated_in_its_own_folder(command, recorded, cwd):
-    plan = (cwd / "first/plan.json").read_bytes()
-    ended = command("--llm replay:first --out first --force")
-    assert ended.err.splitlines()[-1] == "the run repeated its recording: 4 prompts."
-    assert (cwd / "first/plan.json").read_bytes() == plan
+@pytest.mark.parametrize(
+    ("flags", "sentence"),
+    [
+        ("--llm replay:first --out ./first --force", "'first' is what is replayed: give another --out."),
+        (
+            "--domain corridor --seed 3 --llm replay:first.jsonl --record first.jsonl --force --out again",
+            "'first.jsonl' is what is replayed: give another --record.",
+        ),
+    ],
+)
+def test_a_recording_is_not_overwritten_by_its_own_replay(command, recorded, cwd, flags, sentence):
+    """A replay that parts from its recording would leave nothing of it."""
+    kept = {path: path.read_bytes() for path in (cwd / "first").iterdir()}
+    ended = command(flags)
+    assert (ended.code, ended.err) == (2, f"llm3: error: {sentence}\n")
+    assert {path: path.read_bytes() for path in (cwd / "first").iterdir()} == kept
 
 
 def test_the_configuration_comes_from_the_record(command, cwd):

@@ -102,6 +102,19 @@ def drip(handler: BaseHTTPRequestHandler) -> None:
         handler.wfile.write(b" ")
 
 
+def crumbs(beginning: bytes, crumb: bytes) -> Answer:
+    """Goes on with crumbs for some seconds, unless the client closes; no wait between two of them is long."""
+
+    def send(handler: BaseHTTPRequestHandler) -> None:
+        handler.wfile.write(beginning)
+        for _ in range(1000):
+            handler.server.closing.wait(0.005)  # type: ignore[attr-defined]  # ModelServer sets it
+            handler.wfile.write(crumb)
+            handler.wfile.flush()
+
+    return send
+
+
 def flood(handler: BaseHTTPRequestHandler) -> None:
     """Sends more than anyone should read."""
     _start(handler, 200, {})

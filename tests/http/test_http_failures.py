@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import socket
+import threading
 
 import pytest
 import requests
@@ -12,6 +13,7 @@ from model_server import (
     bad_compression,
     broken_chunk,
     broken_off,
+    crumbs,
     drip,
     flood,
     garbage,
@@ -242,3 +244,25 @@ def test_a_refusal_whose_explanation_has_no_end_is_still_a_refusal(failure, serv
     )
     assert len(server.received) == 1
     assert len(sent) < 500
+
+
+CHUNKED = b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n"
+
+
+@pytest.mark.parametrize(
+    ("beginning", "crumb"),
+    [
+        (b"HTTP/1.1 200 OK\r\nX-Slow: ", b"x"),
+        (b"", b"HTTP/1.1 100 Continue\r\n\r\n"),
+        (CHUNKED, b"0"),
+        (CHUNKED + b"2\r\n{}\r\n0\r\n", b"X-Trailer: x\r\n"),
+        (b"HTTP/1.1 503 Busy\r\nContent-Length: 100000\r\n\r\n", b"x"),
+    ],
+    ids=["in a header", "before the answer", "in a chunk's length", "after the body", "in an error"],
+)
+def test_a_server_that_goes_on_with_crumbs_is_cut_off(failure, server, beginning, crumb):
+    threads = threading.active_count()
+    assert failure(crumbs(beginning, crumb), read_timeout=0.2, max_attempts=1) == (
+        f"the server at {server.url} did not answer in full within 0.2 s: try again later, or give another --model"
+    )
+    assert threading.active_count() <= threads + 1  # the server's own, which has not noticed yet

@@ -45,7 +45,7 @@ def read_lines(path: Path, format_: str) -> Iterator[tuple[str, bytes]]:
     """Each line after the header, and where it stands.
 
     A last line that was cut off, as by a kill, is left out. A header may stand again between the lines, so that files
-    can be joined.
+    can be joined; what was cut off before it is left out as well.
 
     Raises:
         InputError: The file cannot be read, or it is of another format.
@@ -54,10 +54,13 @@ def read_lines(path: Path, format_: str) -> Iterator[tuple[str, bytes]]:
         *whole, last = path.read_bytes().split(b"\n")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from error
-    if _is_json(last):
+    header = dumps(Header(format_)).encode()
+    if _is_json(last) or not (whole or header.startswith(last)):
         whole.append(last)
     for number, text in enumerate(whole, start=1):
         source = f"{path}, line {number}"
+        if text.endswith(header) and not _is_json(text):
+            continue
         if number == 1 or _is_header(text):
             stated = loads(text, Header, source).format
             if stated != format_:

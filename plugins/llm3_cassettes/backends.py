@@ -89,12 +89,14 @@ class FolderReplay(Replay):
         repeatable = tuple(exchange for exchange in exchanges if exchange.reply) if run.stop else exchanges
         super().__init__(path, repeatable, run.language_model)
         self._ending, self._out_of_time = ENDINGS[run.status], run.stop == "seconds"
+        self._lost = run.stats.llm_calls - sum(exchange.reply is not None for exchange in exchanges)
 
     def _find(self, messages: tuple[Message, ...]) -> Exchange:
         if self._answered == len(self._exchanges):
             asked = _prompts(self._answered)
-            sentence = f"the recording '{self._path}' ends after {asked}: its run {self._ending}."
-            raise BackendError(sentence, out_of_time=self._out_of_time)
+            reason = "events.jsonl has lost the rest" if self._lost > 0 else f"its run {self._ending}"
+            sentence = f"the recording '{self._path}' ends after {asked}: {reason}."
+            raise BackendError(sentence, out_of_time=self._out_of_time and self._lost <= 0)
         exchange = self._exchanges[self._answered]
         difference = first_difference(exchange.request.messages, messages)
         if difference:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -54,14 +55,28 @@ def test_wherever_the_file_is_cut_off_what_came_before_can_be_read(conversation,
         assert list(read_cassette(path)) == exchanges[: max(0, complete - 1)]
 
 
-@given(conversations, conversations)
+@given(conversations, conversations, st.none() | st.floats(0, 1))
 @settings(max_examples=40)
-def test_cassettes_can_be_joined(one, other):
+def test_cassettes_can_be_joined_also_after_one_that_was_cut_off(one, other, share):
     with TemporaryDirectory() as name:
         first, second = tape(Path(name) / "1", one), tape(Path(name) / "2", other)
+        if share is not None:
+            whole = first.read_bytes()
+            first.write_bytes(whole[: whole.rindex(b"\n", 0, max(len(whole) // 2, 30)) + 1 + round(share * 20)])
+        left = first.read_bytes()
+        left = left if left.endswith(b"\n") else left[: left.rindex(b"\n") + 1]
         both = Path(name) / "both"
         both.write_bytes(first.read_bytes() + second.read_bytes())
+        first.write_bytes(left)
         assert list(read_cassette(both)) == [*read_cassette(first), *read_cassette(second)]
+
+
+@pytest.mark.parametrize("text", [b"hello", b"\x00\xff\x12", b'{"run": "x"}', b"hello\nworld\n"])
+def test_what_is_no_cassette_is_refused(tmp_path, text):
+    path = tmp_path / "tape"
+    path.write_bytes(text)
+    with pytest.raises(InputError, match=rf"^{re.escape(str(path))}, line 1: "):
+        list(read_cassette(path))
 
 
 @given(messages, st.none() | st.sampled_from(["gpt", "größer"]), st.none() | st.sampled_from([0, 0.7, 1]))

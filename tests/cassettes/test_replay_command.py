@@ -248,3 +248,14 @@ def test_a_cassette_that_cannot_be_written_costs_no_record(command, recorded, cw
 def test_a_cassette_may_stand_beside_the_record_and_its_folder_is_made(command, cwd):
     assert command("--domain corridor --record here/tapes/tape.jsonl --out here --quiet").code == 0
     assert command("--domain corridor --llm replay:here/tapes/tape.jsonl --out again --quiet").code == 0
+
+
+@pytest.mark.parametrize("keep", [0, 3], ids=["all of it", "most of it"])
+def test_a_record_whose_events_were_lost_says_so(command, recorded, cwd, keep):
+    path = cwd / "first/events.jsonl"
+    path.write_bytes(b"".join(path.read_bytes().splitlines(keepends=True)[:keep]))
+    ended = command("--llm replay:first --out again")
+    assert ended.code == 3
+    assert ended.err.splitlines()[-1] == (
+        "llm3: error: the recording 'first' ends after 0 prompts: events.jsonl has lost the rest."
+    )

@@ -125,6 +125,7 @@ def solve(
     start = guarded(env.reset, (State,))
     observer(RunStarted(start))
     roller = Roller(env, planner, seed, clock)
+    schema = reply_schema(env.schemas, env.objects, skeleton)
     trace, stats = Trace(budget.trace_size), Stats()
     attempts: list[Attempt] = []
     goal = goal_of(start)
@@ -137,7 +138,7 @@ def solve(
             prompt.render(context),
             context,
             derive_seed("request", seed, number),
-            reply_schema(env.schemas, env.objects, skeleton),
+            schema,
             inf if budget.max_seconds is None else budget.max_seconds - (clock() - began),
         )
         observer(PromptSent(number, request.messages))

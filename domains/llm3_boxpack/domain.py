@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack, closing
 from typing import Any
 
 from llm3.errors import UsageError
@@ -43,8 +44,12 @@ class BoxPack(Domain):
         from llm3_bullet.robots import find_robot
         from llm3_bullet.workcell import Workcell
 
-        wall_height = _wall_height(options["walls"])
-        return BoxpackEnv(instance, Workcell(find_robot(options["robot"])), wall_height)
+        wall_height, robot = _wall_height(options["walls"]), find_robot(options["robot"])
+        with ExitStack() as stack:
+            cell = stack.enter_context(closing(Workcell(robot)))
+            env = BoxpackEnv(instance, cell, wall_height)
+            stack.pop_all()  # it is the Env's to close now
+            return env
 
     def make_in_window(self, instance: Any, options: Options) -> Env | None:
         """A PyBullet world, with a second one in a window that plays what happens."""

@@ -229,6 +229,14 @@ def test_an_arm_that_does_not_start_free_is_refused_with_what_to_change(home, se
     cell.close()
 
 
+def test_a_problem_that_is_refused_leaves_no_simulator_behind(domain, monkeypatch):
+    closed = []
+    monkeypatch.setattr(Workcell, "close", lambda cell, close=Workcell.close: (closed.append(cell), close(cell)))
+    with pytest.raises(InputError):
+        domain.make(problem(box("red_box", 0.0, 0.0)), {"robot": "panda", "walls": "0"})
+    assert len(closed) == 1
+
+
 def test_a_grasp_that_leaves_no_clearance_to_go_on_from_is_no_goal(make):
     """A bar right beside a tall box: the hand could come down, but the next path could not begin up there."""
     tall = BoxSpec("blue_box", (0.07, 0.07, 0.25), (0.39, 0.1))

@@ -1,6 +1,7 @@
 """Task and motion planning with a language model that reasons about motion failures."""
 
-from llm3.assembly import RunConfig, assemble
+from llm3.assembly import RunConfig, assemble, prepare
+from llm3.budget import Budget
 from llm3.errors import LLM3Error
 from llm3.hookspecs import hookimpl
 from llm3.interfaces import (
@@ -18,7 +19,8 @@ from llm3.interfaces import (
 )
 from llm3.prompts import Prompt
 from llm3.registry import Registry
-from llm3.solve import Budget, solve
+from llm3.search import search
+from llm3.solve import solve
 
 __all__ = [
     "BackendSettings",
@@ -39,5 +41,7 @@ __all__ = [
     "TrajectoryTimer",
     "assemble",
     "hookimpl",
+    "prepare",
+    "search",
     "solve",
 ]

@@ -74,3 +74,8 @@ def llm3_model_sources() -> Mapping[str, Callable[[Mapping[str, str]], tuple[Mod
 
     The factory takes the environment variables.
     """
+
+
+@hookspec
+def llm3_experiments() -> Mapping[str, Callable[[], str]]:  # type: ignore[empty-body]  # a specification only
+    """Experiments, for ``llm3 experiment NAME``. The factory answers the text of a TOML file."""

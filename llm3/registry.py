@@ -32,6 +32,7 @@ HOOKS = {
     "timer": "llm3_timers",
     "backend": "llm3_backends",
     "model source": "llm3_model_sources",
+    "experiment": "llm3_experiments",
 }
 """The hook that brings each kind of thing."""
 
@@ -207,6 +208,10 @@ class Registry:
     def backend(self, name: str, settings: BackendSettings | None = None) -> LLMBackend:
         """The model backend of this name; raises like :meth:`domain`."""
         return self._make(LLMBackend, "backend", name, settings or BackendSettings())  # type: ignore[type-abstract]  # as above
+
+    def experiment(self, name: str) -> str:
+        """The TOML text of the experiment of this name; raises like :meth:`domain`."""
+        return self._make(str, "experiment", name)
 
     def model_sources(self, environment: Mapping[str, str]) -> tuple[ModelSource, ...]:
         """Where models can be had, of all plugins, by name.

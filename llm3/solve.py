@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
 from math import inf
 from time import perf_counter
 
+from llm3.budget import Budget
 from llm3.errors import BackendError, PluginError, UsageError
 from llm3.guarded import guarded
 from llm3.interfaces import Env, FeedbackSynthesizer, LLMBackend, MotionPlanner, TrajectoryTimer
@@ -42,40 +43,6 @@ from llm3.types import (
     Stop,
     nobody,
 )
-
-
-@dataclass(frozen=True)
-class Budget:
-    """What a run may spend."""
-
-    max_llm_calls: int = 20
-    """The paper's cap on model calls."""
-    trace_size: int = 5
-    """The paper's k: how many earlier attempts the model is told of."""
-    max_tokens: int | None = None
-    """No call is made once so many tokens were read and written; None for no limit."""
-    max_seconds: float | None = None
-    """No call is made after so long, and none takes longer; None for no limit."""
-
-    def __post_init__(self) -> None:
-        if self.max_llm_calls < 1:
-            raise UsageError(f"the number of model calls must be at least 1, not {self.max_llm_calls}.")
-        if self.trace_size < 0:
-            raise UsageError(f"the trace size must be 0 or more, not {self.trace_size}.")
-        if self.max_tokens is not None and self.max_tokens < 1:
-            raise UsageError(f"the number of tokens must be at least 1, not {self.max_tokens}.")
-        if self.max_seconds is not None and not 0 < self.max_seconds < inf:
-            raise UsageError(f"the seconds of a run must be more than 0, not {self.max_seconds:g}.")
-
-    def used_up(self, stats: Stats, seconds: float) -> Stop | None:
-        """Which part of it is used up, if any is."""
-        if stats.llm_calls >= self.max_llm_calls:
-            return "calls"
-        if self.max_tokens is not None and stats.tokens >= self.max_tokens:
-            return "tokens"
-        if self.max_seconds is not None and seconds >= self.max_seconds:
-            return "seconds"
-        return None
 
 
 def solve(
@@ -159,7 +126,7 @@ def solve(
         reading = parse_reply(completion.text, env.schemas, env.objects, skeleton, cut_off=completion.cut_off)
         observer(ReplyRead(number, reading))
         proposal, unreadable = (None, reading) if isinstance(reading, Failure) else (reading, None)
-        rolled = roller.rollout(start, proposal.actions if proposal else (), _teller(observer, number))
+        rolled = roller.rollout(start, proposal.actions if proposal else (), teller(observer, number))
         goal, plan = goal_of(rolled.state), rolled.plan
         attempt = Attempt(number, goal, proposal, unreadable, rolled.outcomes)
         attempts.append(attempt)
@@ -167,13 +134,20 @@ def solve(
         trace = trace.add(attempt, words)
         stats += Stats(unreadable_replies=int(unreadable is not None))
         observer(AttemptEnded(attempt, words, stats + roller.stats))
-        stop = "solved" if goal.achieved else budget.used_up(stats, clock() - began)
+        stop = "solved" if goal.achieved else budget.used_up(stats + roller.stats, clock() - began)
     solved = stop == "solved"
-    if solved and timer:
-        put = clock()
-        plan = timed(plan, timer, env.joints)
-        stats += Stats(seconds={"timing": clock() - put})
     result = Result(solved, plan if solved else (), goal, tuple(attempts), stats + roller.stats, start, stop)
+    return ended(result, env, timer, observer, clock)
+
+
+def ended(
+    result: Result, env: Env, timer: TrajectoryTimer | None, observer: Observer, clock: Callable[[], float]
+) -> Result:
+    """The result with times for the motions of its plan, once the observer was told: how every run ends."""
+    if result.solved and timer:
+        began = clock()
+        plan = timed(result.plan, timer, env.joints)
+        result = replace(result, plan=plan, stats=result.stats + Stats(seconds={"timing": clock() - began}))
     observer(RunEnded(result))
     return result
 
@@ -187,5 +161,6 @@ def context_of(env: Env, start: State, trace: tuple[Feedback, ...] = (), skeleto
     return Context(env.task, env.schemas, env.objects, tuple(entities), trace, skeleton)
 
 
-def _teller(observer: Observer, attempt: int) -> Tell:
+def teller(observer: Observer, attempt: int) -> Tell:
+    """Tells the observer what becomes of the actions of an attempt."""
     return lambda index, before, outcome, step: observer(ActionTried(attempt, index, before, outcome, step))

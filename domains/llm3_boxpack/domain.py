@@ -7,7 +7,7 @@ from typing import Any
 
 from llm3.errors import UsageError
 from llm3.interfaces import Domain, Env, Option, Options, PlanVerifier, Regions, StandIn
-from llm3.types import Sketch
+from llm3.types import Shape, Sketch, State
 from llm3_boxpack.actions import PLACE, skeleton
 from llm3_boxpack.instance import BoxpackInstance
 from llm3_boxpack.settings import SETTINGS, generate
@@ -62,6 +62,15 @@ class BoxPack(Domain):
         client = connect(gui=True)
         return WindowEnv(instance, Workcell(robot), wall_height, client)
 
+    def remake(self, env: Env, instance: Any, options: Options) -> Env | None:
+        """A world around the same robot, whose simulators go on; None for another robot, or out of a window."""
+        from llm3_boxpack.env import BoxpackEnv
+        from llm3_bullet.robots import find_robot
+
+        if type(env) is not BoxpackEnv:
+            return None
+        return env.remade(instance, find_robot(options["robot"]), _wall_height(options["walls"]))
+
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
         """Pick and place each box in turn."""
         return skeleton(instance)
@@ -87,6 +96,12 @@ class BoxPack(Domain):
         from llm3_bullet.robots import find_robot
 
         return BoxpackVerifier(instance, find_robot(options["robot"]), _wall_height(options["walls"]))
+
+    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...]:
+        """The basket and the boxes."""
+        from llm3_boxpack.top_view import top_view
+
+        return top_view(instance, state)
 
 
 def _inset(center: float, side: float, width: float) -> tuple[float, float]:

@@ -29,6 +29,7 @@ from llm3_boxpack.release import surprises
 from llm3_boxpack.start import start_fault
 from llm3_boxpack.wording import describe, task_text
 from llm3_bullet.poses import as_matrix, as_pose
+from llm3_bullet.robot import RobotDescription
 from llm3_bullet.scene import Scene
 from llm3_bullet.workcell import Workcell
 
@@ -59,6 +60,19 @@ class BoxpackEnv(Env):
         fault = start_fault(contacts, boxes)
         if fault:
             raise InputError(fault)
+
+    def remade(self, instance: BoxpackInstance, robot: RobotDescription, wall_height: float) -> BoxpackEnv | None:
+        """A world for another problem, which takes over the workcell; None for another robot.
+
+        Args:
+            instance: The other problem.
+            robot: Its robot.
+            wall_height: Height of the basket's walls in metres; 0 for none.
+
+        Raises:
+            InputError: Something stands where the arm starts; the workcell is still this world's then.
+        """
+        return BoxpackEnv(instance, self._cell, wall_height) if self._cell.fits(robot) else None
 
     @property
     def task(self) -> str:

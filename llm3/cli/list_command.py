@@ -9,6 +9,7 @@ from typing import TextIO
 
 from llm3.cli.text import emit, printable
 from llm3.errors import LLM3Error
+from llm3.experiments import experiment_of, parse_toml
 from llm3.jsonio import dumps
 from llm3.registry import HOOKS, Registration, Registry
 
@@ -58,6 +59,9 @@ def _description(registry: Registry, registration: Registration) -> str:
             return f"{domain.description} Settings: {', '.join(domain.settings)}."
         if registration.kind == "strategy":
             return registry.strategy(registration.name).description
+        if registration.kind == "experiment":
+            text = registry.experiment(registration.name)
+            return experiment_of(parse_toml(text, registration.name), registration.name).title
     except LLM3Error as error:  # a broken plugin is what this list is there to show
         return str(error)
     except Exception as error:

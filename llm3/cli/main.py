@@ -21,8 +21,10 @@ if TYPE_CHECKING:
 COMMANDS = {
     "run": "plan for one problem (the command that is meant when none is named)",
     "prompt": "print what a model would be sent first, without sending it",
+    "experiment": "run many methods on many problems, as the tables of the paper do",
     "instance": "write a problem to a file, for --instance",
     "verify": "check a plan again, in a fresh world and without a model",
+    "results": "print the tables of experiments, and draw their figures",
     "models": "show where models can be had, and which keys are set",
     "doctor": "make one tiny call to a model, and say what is wrong",
     "list": "show every plugin, where it comes from, and what failed to load",

@@ -21,7 +21,7 @@ def add_problem_arguments(parser: ArgumentParser) -> None:
     """Add ``--domain``, ``--setting`` and ``--seed``."""
     parser.add_argument("--domain", metavar="NAME", help="the kind of problem, such as boxpack")
     parser.add_argument("--setting", metavar="NAME", help="a problem family (default: the domain's own)")
-    parser.add_argument("--seed", type=_seed, default=0, help="chooses the problem, and seeds the run (default: 0)")
+    parser.add_argument("--seed", type=seed, default=0, help="chooses the problem, and seeds the run (default: 0)")
 
 
 def add_world_arguments(parser: ArgumentParser) -> None:
@@ -93,7 +93,8 @@ def path(text: str) -> Path:
     return Path(text)
 
 
-def _seed(text: str) -> int:
+def seed(text: str) -> int:
+    """A seed, for arguments."""
     if text.isascii() and text.isdigit() and len(text) <= len(str(LARGEST_SEED)) and int(text) <= LARGEST_SEED:
         return int(text)
     raise ArgumentTypeError(f"expected a whole number from 0 to {LARGEST_SEED}, not {text!r}")

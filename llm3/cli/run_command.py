@@ -18,11 +18,12 @@ from llm3.cli.problem_arguments import (
     path,
 )
 from llm3.cli.text import emit
-from llm3.errors import OutputExists
+from llm3.errors import OutputExists, UsageError
 from llm3.jsonio import dumps
 from llm3.prices import read_prices
 from llm3.records import CassetteRecorder, Recorder, check_cassette, create_default_folder, create_folder
 from llm3.registry import Registry
+from llm3.search import MOTION_CALLS
 from llm3.timing import unknown_limits
 from llm3.types import Observer, Result, RunEvent, nobody
 
@@ -41,6 +42,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="NAME",
         default=_DEFAULT.feedback,
         help=f"what the model hears of failures (default: {_DEFAULT.feedback})",
+    )
+    add(
+        "--solver",
+        metavar="NAME",
+        default=_DEFAULT.solver,
+        help=f"loop, which asks a model, or search, which asks none (default: {_DEFAULT.solver})",
     )
     add("--llm", metavar="NAME", help="the backend (default: offline, which is no language model)")
     add("--model", metavar="NAME", help="the language model; implies --llm http")
@@ -88,6 +95,12 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("--max-tokens-total", type=int, metavar="N", help="no call after so many tokens, read and written")
     add("--max-seconds", type=float, metavar="S", help="no call after so long, and none takes longer")
     add(
+        "--max-motion-calls",
+        type=int,
+        metavar="N",
+        help=f"no plan is tried after so many motion calls (default: no limit; of a search {MOTION_CALLS})",
+    )
+    add(
         "--record", type=path, metavar="FILE", help="keep every exchange with the model in a new file, for --llm replay"
     )
     add("--prices", type=path, metavar="FILE", help="what the model's tokens cost, to tell what the run did")
@@ -108,14 +121,16 @@ def run(arguments: Namespace, out: TextIO) -> int:
     registry = Registry.discover()
     with assembled(registry, arguments) as ready:
         config = ready.config
-        view = RunView(quiet=arguments.quiet, budget=config.max_llm_calls)
+        if config.is_search and arguments.record:
+            raise UsageError("a search asks no model, so --record would keep nothing: leave it out.")
+        view = RunView(quiet=arguments.quiet, budget=None if config.is_search else config.max_llm_calls)
         name = f"{config.domain}-{config.setting or 'instance'}-{config.seed}"
         if arguments.out:
             folder = create_folder(arguments.out, arguments.force)
         else:
             folder = create_default_folder(name, datetime.now())
-        if ready.backend.notice:
-            view.note(ready.backend.notice)
+        if ready.solver.notice:
+            view.note(ready.solver.notice)
         for broken in registry.broken:
             view.note(f"warning: plugin {broken.plugin} failed to load: {broken.reason}")
         reason = unknown_limits(ready.problem.env.joints) if ready.timer else ""
@@ -139,8 +154,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
         view.summary(result, record.seconds, folder, cost)
         if config.max_tokens_total and not result.stats.tokens:
             view.note("no tokens were counted: the model's server tells of none, so --max-tokens-total did nothing")
-        if ready.backend.last_words:
-            view.note(ready.backend.last_words)
+        if ready.solver.last_words:
+            view.note(ready.solver.last_words)
         if arguments.json:
             emit(dumps(_summary(config, result, record.seconds, folder, cost)) + "\n", out)
         else:
@@ -165,8 +180,9 @@ def _summary(config: RunConfig, result: Result, seconds: float, folder: Path, co
         "domain": config.domain,
         "setting": config.setting,
         "seed": config.seed,
-        "strategy": config.strategy,
-        "feedback": config.feedback,
+        "solver": config.solver,
+        "strategy": None if config.is_search else config.strategy,
+        "feedback": None if config.is_search else config.feedback,
         "llm": config.llm,
         "model": config.model,
         "planner": config.planner,

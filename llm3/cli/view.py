@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from types import TracebackType
 
-from rich.console import Console
 from rich.status import Status
 from rich.text import Text
 
-from llm3.cli.text import discard, printable
+from llm3.cli.console import ViewConsole
+from llm3.cli.text import printable
 from llm3.types import (
     ActionTried,
     AttemptEnded,
@@ -23,29 +22,31 @@ from llm3.types import (
     RunEvent,
 )
 
-
-class _Console(Console):
-    def on_broken_pipe(self) -> None:
-        """Whoever watched has left; the run goes on, and its result is for stdout."""
-        self.quiet = True
-        discard(sys.stderr)
+_STOPS = {
+    "tokens": "the budget of tokens is used up",
+    "seconds": "the budget of seconds is used up",
+    "motions": "the budget of motion calls is used up",
+    "attempts": "the search made very many attempts with hardly any motion",
+    "exhausted": "everything that can be done was tried, and nothing reached the goal",
+}
 
 
 class RunView:
     """An observer that shows attempts, actions and outcomes. Use it in a ``with`` while the run goes on."""
 
-    def __init__(self, quiet: bool, budget: int) -> None:
+    def __init__(self, quiet: bool, budget: int | None) -> None:
         """Start with nothing on the screen.
 
         Args:
             quiet: Show nothing at all.
-            budget: The number of model calls that the run may make.
+            budget: The number of model calls that the run may make. None for a search: of its many attempts only the
+                actions that are new are shown.
         """
-        self._console = _Console(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
+        self._console = ViewConsole(quiet)
         self._budget = budget
         self._failed_call = ""
         self._status: Status | None = None
-        if self._console.is_terminal and not self._console.is_dumb_terminal and not quiet:
+        if self._console.is_live:
             self._status = Status("", console=self._console)
 
     def __enter__(self) -> RunView:
@@ -70,12 +71,16 @@ class RunView:
         elif isinstance(event, CallFailed):
             self._failed_call = event.error
         elif isinstance(event, ReplyRead):
-            if isinstance(event.proposal, Failure):
+            if self._budget is None:
+                self._wait(f"attempt {event.attempt}")
+            elif isinstance(event.proposal, Failure):
                 self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
             else:
                 actions = _count(len(event.proposal.actions), "action")
                 self._line(f"attempt {event.attempt}: a plan of {actions}", "bold")
                 self._wait(f"attempt {event.attempt} of {self._budget}: trying the plan")
+        elif self._budget is None and (isinstance(event, AttemptEnded) or _known(event)):
+            return
         elif isinstance(event, ActionTried):
             self._outcome(event.index + 1, event.outcome)
         elif isinstance(event, AttemptEnded) and event.attempt.failure is None and not event.attempt.goal.achieved:
@@ -85,16 +90,17 @@ class RunView:
         """Show how the run ended, what it took and, if known, what it cost, and where the record is."""
         stats = result.stats
         word, style = ("solved", "bold green") if result.solved else ("not solved", "bold red")
+        asked = _count(len(result.attempts), "plan") if self._budget is None else _count(stats.llm_calls, "model call")
         self._line(
-            f"{word} in {seconds:.1f} s: {_count(stats.llm_calls, 'model call')}, "
+            f"{word} in {seconds:.1f} s: {asked}, "
             f"{_count(stats.motion_calls, 'motion call')}, {_count(stats.reused_actions, 'action')} reused",
             style,
         )
         if stats.tokens:
             told = f"{stats.prompt_tokens:,} tokens read, {stats.completion_tokens:,} written"
             self._line(told if cost is None else f"{told}: {cost:.4g} by the price table")
-        if result.stop in ("tokens", "seconds"):
-            self._line(f"the budget of {result.stop} is used up", "yellow")
+        if result.stop in _STOPS:
+            self._line(_STOPS[result.stop], "yellow")
         if self._failed_call:  # which ended the run by its time, and not as an error
             self._line(f"the last call got no answer: {self._failed_call}", "red")
         if result.time_limited:
@@ -118,6 +124,10 @@ class RunView:
     def _wait(self, text: str) -> None:
         if self._status:
             self._status.update(Text(text))
+
+
+def _known(event: RunEvent) -> bool:
+    return isinstance(event, ActionTried) and event.outcome.reused
 
 
 def _count(number: int, noun: str) -> str:

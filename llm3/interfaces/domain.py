@@ -10,7 +10,7 @@ from typing import Any
 from llm3.interfaces.backend import Regions, StandIn
 from llm3.interfaces.env import Env
 from llm3.interfaces.verifier import PlanVerifier
-from llm3.types import Sketch
+from llm3.types import Shape, Sketch, State
 
 Options = Mapping[str, str]
 """Domain options as the user wrote them (``-D key=value``)."""
@@ -85,6 +85,28 @@ class Domain(ABC):
         """Like `make`, with the world shown in a window."""
         return None
 
+    def remake(self, env: Env, instance: Any, options: Options) -> Env | None:  # noqa: ARG002  # part of the interface
+        """A world for another instance out of one that is no longer needed, where that is cheaper than a new one.
+
+        Nothing but the time that it takes may tell it from one of `make`.
+
+        Args:
+            env: A world that `make` or `remake` of such a domain made. It is used up: if the answer is a world, nobody
+                uses or closes the old one any more; if it is None, or an error is raised, the caller closes it.
+            instance: As for `make`.
+            options: As for `make`.
+        """
+        return None
+
     def verifier(self, instance: Any, options: Options) -> PlanVerifier | None:  # noqa: ARG002  # part of the interface
         """A second look at plans of this instance, for ``llm3 verify``; it shares no code with `make`."""
+        return None
+
+    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...] | None:  # noqa: ARG002  # part of the interface
+        """The outlines of what matters in a state, seen from above, for figures of the layouts that were tried.
+
+        Args:
+            instance: An `instance_type`.
+            state: One of its states. What the robot holds need not be shown.
+        """
         return None

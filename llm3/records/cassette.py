@@ -38,7 +38,7 @@ class CassetteRecorder:
         """
         check_cassette(path, force)
         self._clock = clock
-        self._pairing = Pairing(run.config, run.backend.is_language_model)
+        self._pairing = Pairing(run.config, run.solver.language_model)
         try:
             path.parent.mkdir(parents=True, exist_ok=True)
             self._lines = LineWriter(path, CASSETTE_FORMAT, force)

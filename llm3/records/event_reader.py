@@ -50,7 +50,7 @@ _LINES: dict[str, tuple[type[Line], tuple[str, ...]]] = {
     "PromptSent": (PromptSentLine, ("RunStarted", "AttemptEnded")),
     "ReplyReceived": (ReplyReceivedLine, ("PromptSent",)),
     "CallFailed": (CallFailedLine, ("PromptSent",)),
-    "ReplyRead": (ReplyReadLine, ("ReplyReceived",)),
+    "ReplyRead": (ReplyReadLine, ("ReplyReceived", "RunStarted", "AttemptEnded")),  # a search asks nobody
     "ActionTried": (ActionTriedLine, ("ReplyRead", "ActionTried")),
     "AttemptEnded": (AttemptEndedLine, ("ReplyRead", "ActionTried")),
     "RunEnded": (RunEndedLine, ("AttemptEnded", "CallFailed")),
@@ -112,13 +112,13 @@ class _Reader:
         if line.attempt != number:
             raise InputError(f"{source}: the attempt is number {number}, not {line.attempt}")
         if isinstance(line, PromptSentLine):
-            self._state, self._outcomes, self._plan = self._start, [], []
             return PromptSent(number, line.messages)
         if isinstance(line, ReplyReceivedLine):
             return ReplyReceived(number, line.completion)
         if isinstance(line, CallFailedLine):
             return CallFailed(number, line.error, line.stats)
         if isinstance(line, ReplyReadLine):
+            self._state, self._outcomes, self._plan = self._start, [], []
             self._reading = proposal_from(line.proposal, source)
             return ReplyRead(number, self._reading)
         if isinstance(line, ActionTriedLine):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,14 +23,25 @@ class Header:
 class LineWriter:
     """Writes lines, each of them flushed at once. Close it."""
 
-    def __init__(self, path: Path, format_: str, force: bool = True) -> None:
-        """Begin the file with its header.
+    def __init__(self, path: Path, format_: str, force: bool = True, go_on: bool = False) -> None:
+        """Begin the file with its header, or go on where it ends.
+
+        Args:
+            path: The file.
+            format_: What its header says.
+            force: Whether to begin anew where there is such a file.
+            go_on: Whether to keep the file's lines; one at its end that was cut off, as by a kill, is removed.
 
         Raises:
-            FileExistsError: There is such a file, and `force` is not given.
+            FileExistsError: There is such a file, and neither `force` nor `go_on` is given.
         """
-        self._file = path.open("w" if force else "x", encoding="utf-8")
-        self.write(Header(format_))
+        if go_on and path.exists():
+            _mend_end(path)
+            self._file = path.open("a", encoding="utf-8")
+        else:
+            self._file = path.open("w" if force or go_on else "x", encoding="utf-8")
+        if not path.stat().st_size:
+            self.write(Header(format_))
 
     def write(self, value: Any) -> None:
         """Write one line."""
@@ -67,6 +79,17 @@ def read_lines(path: Path, format_: str) -> Iterator[tuple[str, bytes]]:
                 raise InputError(f"{source}: the format is {stated!r}, and this version reads {format_!r}")
         else:
             yield source, text
+
+
+def _mend_end(path: Path) -> None:
+    """Let a file end with a whole line: a last one that was cut off is removed, and one without its end gets that."""
+    lines, newline, last = path.read_bytes().rpartition(b"\n")
+    with path.open("r+b") as file:
+        if _is_json(last):
+            file.seek(0, os.SEEK_END)
+            file.write(b"\n")
+        else:
+            file.truncate(len(lines) + len(newline))
 
 
 def _is_header(text: bytes) -> bool:

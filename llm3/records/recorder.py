@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +16,7 @@ from llm3.records.event_lines import EVENTS_FORMAT, fields_of
 from llm3.records.json_lines import LineWriter
 from llm3.records.plan import plan_file
 from llm3.records.run_file import run_file
+from llm3.records.whole_file import write_whole
 from llm3.types import AttemptEnded, CallFailed, ReplyReceived, RunEnded, RunEvent, Stats
 
 
@@ -50,7 +50,7 @@ class Recorder:
     def __call__(self, event: RunEvent) -> None:
         """Note one event."""
         if isinstance(event, RunEnded) and event.result.solved:  # before the line that promises a plan
-            self._write("plan.json", pretty(plan_file(self._run.problem, event.result)))
+            write_whole(self.folder / "plan.json", pretty(plan_file(self._run.problem, event.result)))
         self._events.write({"event": type(event).__name__, "time": round(self.seconds, 3), **fields_of(event)})
         if isinstance(event, ReplyReceived):  # paid for, even if the run is cut off before the attempt ends
             spent = event.completion.stats + Stats(llm_calls=1)
@@ -90,11 +90,4 @@ class Recorder:
 
     def _write_run(self) -> None:
         self._file = replace(self._file, seconds=round(self.seconds, 3))
-        self._write("run.json", pretty(self._file))
-
-    def _write(self, name: str, text: str) -> None:
-        # Written beside and moved into place: a run that is killed leaves the old file or the new one.
-        beside = self.folder / f"{name}.{os.getpid()}.new"
-        with beside.open("w", encoding="utf-8") as file:  # a killed process of this number may have left one
-            file.write(text)
-        beside.replace(self.folder / name)
+        write_whole(self.folder / "run.json", pretty(self._file))

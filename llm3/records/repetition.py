@@ -18,7 +18,8 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
     """Make a recorded run ready to be solved again, with the replies of its record in place of a model.
 
     What was asked stands in the record: problem, options, method, seed and budget. A limit in seconds is left out,
-    since no time passes with a model; where it ended the run, the recording ends it in the same place.
+    since no time passes with a model; where it ended the run, the recording ends it in the same place. A search has no
+    replies: it is made again with all that it was asked, by its seed.
 
     Args:
         registry: Where the names are looked up.
@@ -35,4 +36,6 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
 
 
 def _configuration(recorded: RunFile, folder: Path) -> RunConfig:
+    if recorded.config.is_search:
+        return replace(recorded.config, options=recorded.options)
     return replace(recorded.config, llm=f"{REPLAY}:{folder}", options=recorded.options, max_seconds=None)

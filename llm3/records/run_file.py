@@ -28,12 +28,14 @@ class RunFile:
     language_model: bool
     """False where no language model was used."""
     notice: str
-    """What the backend has to say about itself."""
+    """What the backend, or the search, has to say about itself."""
     instance: Any
     """The domain's instance as JSON."""
     options: Mapping[str, str]
     """The domain's options, all of them."""
     versions: Mapping[str, str]
+    plugins: Mapping[str, str] = field(default_factory=FrozenDict)
+    """Where the plugins that it used come from, by kind and name."""
     stats: Stats = field(default=Stats())
     unmet: tuple[str, ...] = ()
     """What of the goal is missing."""
@@ -49,6 +51,7 @@ class RunFile:
             raise ValueError(f"the format is {self.format!r}, and this version reads {RUN_FORMAT!r}")
         object.__setattr__(self, "options", FrozenDict(self.options))
         object.__setattr__(self, "versions", FrozenDict(self.versions))
+        object.__setattr__(self, "plugins", FrozenDict(self.plugins))
 
 
 def run_file(run: Run) -> RunFile:
@@ -57,11 +60,12 @@ def run_file(run: Run) -> RunFile:
         RUN_FORMAT,
         "running",
         run.config,
-        run.backend.is_language_model,
-        run.backend.notice,
+        run.solver.language_model,
+        run.solver.notice,
         to_builtins(run.problem.instance),
         run.problem.options,
         versions(),
+        run.plugins,
     )
 
 

@@ -3,6 +3,7 @@
 from llm3.types.actions import Action, ActionSchema, Parameter
 from llm3.types.attempts import Attempt, Outcome, Proposal, Rejected
 from llm3.types.dialogue import Completion, Context, Entity, Feedback, Message, Remark, Request, Sketch
+from llm3.types.drawing import Shape
 from llm3.types.events import (
     ActionTried,
     AttemptEnded,
@@ -85,6 +86,7 @@ __all__ = [
     "RunEvent",
     "RunStarted",
     "Segment",
+    "Shape",
     "Sketch",
     "State",
     "Stats",

@@ -49,7 +49,7 @@ class CallFailed:
 
 @dataclass(frozen=True)
 class ReplyRead:
-    """The reply was parsed, into a plan or into the reason why there is none."""
+    """The reply was parsed, into a plan or into the reason why there is none; in a search, a plan is tried next."""
 
     attempt: int
     proposal: Proposal | Failure

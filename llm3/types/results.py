@@ -21,8 +21,10 @@ class PlannedAction:
     state: State
 
 
-Stop = Literal["solved", "calls", "tokens", "seconds"]
-"""Why a run ends: the goal is reached, or which part of the budget is used up."""
+Stop = Literal["solved", "calls", "tokens", "motions", "seconds", "attempts", "exhausted"]
+"""Why a run ends: the goal is reached, or which part of the budget is used up.
+
+A search also ends after very many attempts for its budget of motion calls, and when nothing is left to be tried."""
 
 
 @dataclass(frozen=True)

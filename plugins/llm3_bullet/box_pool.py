@@ -34,6 +34,11 @@ class BoxPool:
         self.held = -1
         """PyBullet's number of the held box; -1 without one."""
 
+    @property
+    def made(self) -> int:
+        """How many bodies there are. PyBullet never frees all of a body's memory, so they are not removed."""
+        return sum(map(len, self._made.values()))
+
     def show(self, scene: Scene) -> None:
         """Put the scene's boxes where they are, unless they are there already; the held one comes from the hand."""
         if scene is self._scene or scene == self._scene:

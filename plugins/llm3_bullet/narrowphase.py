@@ -54,7 +54,7 @@ class Narrowphase:
         gripper = {model.link(name) for name in model.description.gripper.links}
         self._parts = ["gripper" if link in gripper else "arm" for link in range(len(model.links))]
         self._links = model.links
-        self._boxes = BoxPool(client, self._box)
+        self.boxes = BoxPool(client, self._box)
         self._scene = Scene()
         for link in range(len(model.links)):  # queries do not ask for it, and PyBullet's own step has less to do
             client.setCollisionFilterGroupMask(self.robot, link - 1, 0, 0)
@@ -62,7 +62,7 @@ class Narrowphase:
     def show(self, scene: Scene) -> None:
         """Put the scene's boxes where they are."""
         if scene is not self._scene:
-            self._boxes.show(scene)
+            self.boxes.show(scene)
             self._body.open(scene.opening)
             self._scene = scene
 
@@ -77,10 +77,10 @@ class Narrowphase:
         scene, closest, horizon = self._scene, self._client.getClosestPoints, max(clearance, 0.0)
         self._body.pose(q.tolist())
         if scene.held and any(body == len(self._links) for _, body in (*questions.boxes, *questions.pairs)):
-            self._body.hold(self._boxes.held, scene.held.grasp)
+            self._body.hold(self.boxes.held, scene.held.grasp)
         for box, body in questions.boxes:
             number, link = self._numbers(body)
-            for row in closest(number, self._boxes.bodies[box], horizon, link):
+            for row in closest(number, self.boxes.bodies[box], horizon, link):
                 if row[8] < clearance:
                     yield self._contact(row, body, scene.boxes[box].name)
         for a, b in questions.pairs:
@@ -91,7 +91,7 @@ class Narrowphase:
 
     def _numbers(self, body: int) -> tuple[int, int]:
         """PyBullet's numbers of the body and of its link."""
-        return (self.robot, body - 1) if body < len(self._links) else (self._boxes.held, -1)
+        return (self.robot, body - 1) if body < len(self._links) else (self.boxes.held, -1)
 
     def _contact(self, row: Sequence[Any], body: int, thing: str, other_link: str = "") -> Contact:
         """A contact from PyBullet's closest points."""

@@ -56,7 +56,7 @@ class ThickWorld:
             pairs: The pairs of links that may come near each other and must not touch.
         """
         self._client = client
-        self._boxes = BoxPool(client, self._box)
+        self.boxes = BoxPool(client, self._box)
         self._scene = Scene()
         robot = self._build(model, hulls)
         self._body = RobotBody(client, robot, model)
@@ -72,7 +72,7 @@ class ThickWorld:
     def show(self, scene: Scene) -> None:
         """Put the scene's boxes where they are."""
         if scene is not self._scene:
-            self._boxes.show(scene)
+            self.boxes.show(scene)
             self._body.open(scene.opening)
             self._scene = scene
 
@@ -80,7 +80,7 @@ class ThickWorld:
         """Whether nothing touches in a configuration (dof,) although all is thicker."""
         self._body.pose(q)
         if self._scene.held:
-            self._body.hold(self._boxes.held, self._scene.held.grasp)
+            self._body.hold(self.boxes.held, self._scene.held.grasp)
         self._client.performCollisionDetection()
         return all(point[8] >= 0 for point in self._client.getContactPoints())
 

@@ -12,6 +12,9 @@ from llm3_bullet.settle import Settler
 from llm3_bullet.touchdown import TouchdownSettings
 from llm3_bullet.touchdown_planner import TouchdownPlanner
 
+MOST_BODIES = 300
+"""A world with more of them than this is given up: they make PyBullet slow, and take memory."""
+
 
 class Workcell:
     """What a domain needs to plan with one robot. Whatever it keeps is a cache: answers depend on questions alone."""
@@ -37,6 +40,15 @@ class Workcell:
     def gripper(self) -> Gripper:
         """The robot's gripper."""
         return self.model.description.gripper
+
+    def fits(self, description: RobotDescription) -> bool:
+        """Whether it serves for another problem as well as a new one.
+
+        It has to be open, to have just this robot, and not to be full of bodies for boxes of other sizes.
+        """
+        pools = self.checker.narrowphase.boxes, self.checker.thick_world.boxes
+        roomy = all(client.is_open for client in self._clients) and all(pool.made <= MOST_BODIES for pool in pools)
+        return roomy and self.model.description == description
 
     def close(self) -> None:
         """Stop the simulators. Calling it twice does no harm."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from llm3.assembly import Run, RunConfig
+from llm3.assembly import Loop, Run, RunConfig
 from llm3.interfaces import LLMBackend
 from llm3.records import CassetteRecorder
 from llm3.testing import ScriptedLLM
@@ -24,7 +24,7 @@ class Model(ScriptedLLM):
 
 def run_of(config: RunConfig = CONFIG, backend: LLMBackend | None = None) -> Run:
     """A run of which nothing but the names is looked at."""
-    return Run(config, None, (), None, backend or ScriptedLLM([]), None, None)
+    return Run(config, None, Loop(backend or ScriptedLLM([]), None, None), None)
 
 
 def tape(

@@ -259,3 +259,40 @@ def test_a_record_whose_events_were_lost_says_so(command, recorded, cwd, keep):
     assert ended.err.splitlines()[-1] == (
         "llm3: error: the recording 'first' ends after 0 prompts: events.jsonl has lost the rest."
     )
+
+
+# ---- a search, which has no conversation ---------------------------------------------------------------------------
+
+
+@pytest.fixture
+def search(command):
+    """A recorded search, in the folder `found`."""
+    return command("--domain corridor --seed 7 --solver search --out found --quiet")
+
+
+def test_a_search_is_repeated_by_searching_again(command, search, cwd):
+    ended = command("--llm replay:found --out again")
+    assert (ended.code, ended.out) == (0, search.out)
+    assert (cwd / "again/plan.json").read_bytes() == (cwd / "found/plan.json").read_bytes()
+    assert without_times(cwd / "again") == without_times(cwd / "found")
+    assert read_run(cwd / "again").config == read_run(cwd / "found").config
+
+
+@pytest.mark.parametrize(
+    ("flags", "code", "sentence"),
+    [
+        ("--llm replay:found --solver loop", 2,
+         "the recording 'found' has --solver search: leave out --solver loop, or give --domain to replay it in "
+         "another run."),
+        ("--domain corridor --solver search --llm replay:found", 2,
+         "the solver 'search' asks no model: leave out --llm."),
+        ("--domain corridor --solver search --record tape.jsonl", 2,
+         "a search asks no model, so --record would keep nothing: leave it out."),
+        ("--domain corridor --llm replay:found", 3,
+         "the recording 'found' ends after 0 prompts: its run was solved."),
+    ],
+)  # fmt: skip
+def test_its_record_holds_no_conversation(command, search, cwd, flags, code, sentence):
+    ended = command(f"{flags} --out again")
+    assert (ended.code, ended.err.splitlines()[-1]) == (code, f"llm3: error: {sentence}")
+    assert not (cwd / "tape.jsonl").exists()

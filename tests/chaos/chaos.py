@@ -70,7 +70,8 @@ def _episode(registry: Registry, server: LLMServer, config: RunConfig, folder: P
     first = len(server.answers)
     result = None
     with assemble(registry, replace(config, llm="offline")) as assembled, _backend(server.url, config.seed) as backend:
-        run = replace(assembled, backend=server.tap(backend), config=config)
+        solver = replace(assembled.solver, backend=server.tap(backend))
+        run = replace(assembled, solver=solver, config=config)
         try:
             with Recorder(create_folder(folder), run) as record:
                 result = run.solve(record)

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-KINDS = ("domain", "strategy", "feedback", "planner", "timer", "backend", "model source")
+KINDS = ("domain", "strategy", "feedback", "planner", "timer", "backend", "model source", "experiment")
 BROKEN = {
     "llm3_broken": (
         "raise RuntimeError('no\\x1b[2J such\\ntorque')",

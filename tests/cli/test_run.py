@@ -14,7 +14,7 @@ BLOCKED = """{"Full Plan": ["go([], {'x': 0.5, 'y': 0.5})", "go([], {'x': 1.0, '
 SOLVING = """{"Full Plan": ["go([], {'x': 0.5, 'y': 0.5})", "go([], {'x': 1.9, 'y': 0.5})"]}"""
 SHORT = """{"Full Plan": ["go([], {'x': 0.5, 'y': 0.5})"]}"""
 KEYS = {
-    "solved", "domain", "setting", "seed", "strategy", "feedback", "llm", "model", "planner", "llm_calls",
+    "solved", "domain", "setting", "seed", "solver", "strategy", "feedback", "llm", "model", "planner", "llm_calls",
     "motion_calls", "reused_actions", "seconds", "plan", "out", "stop", "prompt_tokens", "completion_tokens", "cost",
 }  # fmt: skip
 
@@ -60,7 +60,8 @@ def test_json_is_one_object_with_exactly_the_documented_keys(corridor, calls):
     assert 1 <= llm_calls <= calls
     assert motion_calls >= 1
     assert told == {
-        "solved": calls == 20, "domain": "corridor", "setting": "default", "seed": 0, "strategy": "backtrack",
+        "solved": calls == 20, "domain": "corridor", "setting": "default", "seed": 0,
+        "solver": "loop", "strategy": "backtrack",
         "feedback": "categorized", "llm": "offline", "model": None, "planner": "birrt", "reused_actions": 0,
         "out": "here", "stop": "solved" if calls == 20 else "calls", "prompt_tokens": 0, "completion_tokens": 0,
         "cost": None,
@@ -92,14 +93,16 @@ def test_every_choice_is_what_the_record_says_was_asked(corridor, cwd):
     corridor(
         "--setting default --seed 7 --strategy sample-params --feedback binary --llm random --planner birrt "
         "--planner-iterations 99 --planner-seconds 9 --timing none --max-llm-calls 3 --trace-size 2 "
-        "--max-reply-tokens 500 --max-tokens-total 10000 --max-seconds 60 --out here --quiet"
+        "--max-reply-tokens 500 --max-tokens-total 10000 --max-seconds 60 --solver loop "
+        "--max-motion-calls 500 --out here --quiet"
     )
     assert json.loads((cwd / "here/run.json").read_text(encoding="utf-8"))["config"] == {
-        "domain": "corridor", "setting": "default", "seed": 7, "strategy": "sample-params", "feedback": "binary",
+        "domain": "corridor", "setting": "default", "seed": 7, "solver": "loop",
+        "strategy": "sample-params", "feedback": "binary",
         "llm": "random", "model": None, "temperature": None, "planner": "birrt", "planner_iterations": 99,
         "planner_seconds": 9.0, "timing": "none", "max_llm_calls": 3, "trace_size": 2,
         "max_reply_tokens": 500, "max_tokens_total": 10000, "max_seconds": 60.0,
-        "options": {},
+        "max_motion_calls": 500, "options": {},
     }  # fmt: skip
 
 

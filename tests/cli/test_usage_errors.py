@@ -10,10 +10,11 @@ import pytest
 
 RUN_FLAGS = (
     "--debug, --domain, --feedback, --force, --gui, --help, --instance, --json, --llm, --max-llm-calls, "
-    "--max-reply-tokens, --max-seconds, --max-tokens-total, --model, "
+    "--max-motion-calls, --max-reply-tokens, --max-seconds, --max-tokens-total, --model, "
     "--out, --planner, --planner-iterations, --planner-seconds, --prices, --quiet, "
-    "--record, --seed, --setting, --strategy, --temperature, --timing, --trace-size, --version, -D, -h"
+    "--record, --seed, --setting, --solver, --strategy, --temperature, --timing, --trace-size, --version, -D, -h"
 )
+SED = f"unknown flag '--sed'; did you mean '--seed' or '--solver' or '--record'? Known: {RUN_FLAGS}."
 SENTENCES = {
     "": "no domain: give --domain NAME. Known: boxpack, corridor.",
     "--domain coridor": "unknown domain 'coridor'; did you mean 'corridor'? Known: boxpack, corridor.",
@@ -34,8 +35,8 @@ SENTENCES = {
     ),
     "--domain corridor -D walls=1": "unknown option 'walls' of domain 'corridor'. Known: none.",
     "--domain corridor -D walls": "argument -D: expected KEY=VALUE, not 'walls'. See 'llm3 --help'.",
-    "--domain corridor --sed 3": f"unknown flag '--sed'; did you mean '--seed' or '--record'? Known: {RUN_FLAGS}.",
-    "--domain corridor --sed=3": f"unknown flag '--sed'; did you mean '--seed' or '--record'? Known: {RUN_FLAGS}.",
+    "--domain corridor --sed 3": SED,
+    "--domain corridor --sed=3": SED,
     "--domain corridor --seed": "argument --seed: expected one argument. See 'llm3 --help'.",
     "--domain corridor --seed -1": (
         "argument --seed: expected a whole number from 0 to 9223372036854775807, not '-1'. See 'llm3 --help'."
@@ -63,9 +64,13 @@ SENTENCES = {
     "--domain corridor --instance a.json --setting default": (
         "--setting and --instance both choose a problem: give one of them."
     ),
-    "lst": "unknown command 'lst'; did you mean 'list'? Known: doctor, instance, list, models, prompt, run, verify.",
+    "lst": (
+        "unknown command 'lst'; did you mean 'list'? Known: doctor, experiment, instance, list, models, prompt, "
+        "results, run, verify."
+    ),
     "--domain corridor list": (
-        "unexpected argument 'list'. A command stands first: run, prompt, instance, verify, models, doctor, list."
+        "unexpected argument 'list'. A command stands first: run, prompt, experiment, instance, verify, results, "
+        "models, doctor, list."
     ),
     "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
     "prompt --domain corridor --llm http": (

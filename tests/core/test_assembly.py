@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import pytest
-from line_world import FINISH, FullLineDomain, LineDomain, LineInstance, LinePlugin, go, line_registry, reply
+from line_world import FINISH, FullLineDomain, Line, LineDomain, LineInstance, LinePlugin, go, line_registry, reply
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from llm3 import LLMBackend, Registry, hookimpl
+from llm3 import Budget, LLMBackend, Registry, hookimpl, prepare
 from llm3.assembly import RunConfig, assemble, choose_instance, choose_options, open_problem
-from llm3.errors import MissingCapability, UnknownName, UsageError
+from llm3.errors import MissingCapability, PluginError, UnknownName, UsageError
 from llm3.jsonio import dumps, loads
 from llm3.testing import ScriptedLLM
 from llm3.types import Completion, Sketch
@@ -24,6 +24,10 @@ def complaint(call, *arguments, error=UsageError, **keywords):
     return str(caught.value)
 
 
+def with_model(run, model):
+    return replace(run, solver=replace(run.solver, backend=model))
+
+
 # ---- what a user asks for ------------------------------------------------------------------------------------------
 
 
@@ -32,6 +36,7 @@ def test_the_defaults_are_the_papers_and_need_no_network():
         domain="boxpack",
         setting=None,
         seed=0,
+        solver="loop",
         strategy="backtrack",
         feedback="categorized",
         llm=None,
@@ -43,6 +48,7 @@ def test_the_defaults_are_the_papers_and_need_no_network():
         timing=None,
         max_llm_calls=20,
         trace_size=5,
+        max_motion_calls=None,
         options={},
     )
 
@@ -62,6 +68,8 @@ def test_a_model_implies_http():
         ({"model": " "}, "the model's name is empty: name one, or leave out --model."),
         ({"temperature": -1.0}, "the temperature must be 0 or more, not -1."),
         ({"planner_iterations": -1}, "the planner's iterations must be 0 or more, not -1."),
+        ({"solver": "serach"}, "unknown solver 'serach'; did you mean 'search'? Known: loop, search."),
+        ({"max_motion_calls": 0}, "the number of motion calls must be at least 1, not 0."),
         ({"planner_seconds": 0.0}, "the planner's seconds must be more than 0, not 0."),
     ],
 )
@@ -154,7 +162,7 @@ def test_a_run_is_assembled_and_solved():
     with assemble(line_registry(), config()) as run:
         assert run.config == config(setting="far", llm="offline", timing="none")
         assert run.problem.instance == LineInstance(0.0)
-        assert run.skeleton == ()
+        assert run.solver.skeleton == ()
         result = run.solve()
     assert result.solved
     assert [step.action for step in result.plan] == [go(FINISH)]
@@ -172,7 +180,7 @@ def test_the_budget_the_trace_and_the_seed_are_those_that_were_asked_for():
     seeds = []
     for seed in (0, 1):
         with assemble(line_registry(), config(max_llm_calls=4, trace_size=2, seed=seed), LineInstance(0.0)) as run:
-            result = replace(run, backend=model).solve()
+            result = with_model(run, model).solve()
         seeds.append(model.requests[-1].seed)
         assert result.stats.llm_calls == 4
         assert [feedback.attempt for feedback in model.requests[-1].context.trace] == [2, 3]
@@ -189,9 +197,9 @@ def test_an_observer_is_passed_on():
 def test_a_strategy_that_fixes_the_sequence_takes_the_domains():
     skeleton = (Sketch("go"), Sketch("take", ("coin",)), Sketch("go"))
     with assemble(line_registry(), config(strategy="sample-params")) as run:
-        assert run.skeleton == skeleton
+        assert run.solver.skeleton == skeleton
     with assemble(line_registry(), config(strategy="backtrack")) as run:
-        assert run.skeleton == ()
+        assert run.solver.skeleton == ()
 
 
 def test_and_is_refused_where_the_domain_has_none():
@@ -272,3 +280,141 @@ def test_closing_twice_does_no_harm_and_nothing_stays_open_when_the_world_cannot
     with pytest.raises(UnknownName):
         assemble(registry, config(llm="noted", options={"ground": "icy"}))
     assert backend.closed == 3
+
+
+# ---- two solvers ---------------------------------------------------------------------------------------------------
+
+
+def test_a_search_needs_no_model_no_prompt_and_no_feedback():
+    registry = Registry()
+    registry.register(LinePlugin(), "line")
+    with assemble(registry, config(solver="search"), LineInstance(0.0)) as run:
+        assert (run.solver.language_model, run.solver.last_words) == (False, "")
+        assert run.solver.notice == "No language model is used: a search tries actions with parameters drawn at random."
+        assert run.solver.regions == {("go", (), "x"): (8.5, 9.5)}
+        assert run.config.llm is None
+        assert run.config.max_motion_calls == 2000
+        assert run.config.run_name == "full-line/instance/0/search"
+        result = replace(run, config=replace(run.config, max_motion_calls=7)).solve()
+    assert (result.stop, result.stats.motion_calls, result.stats.llm_calls) == ("motions", 7, 0)
+
+
+def test_a_limit_in_motion_calls_or_seconds_is_left_as_it_is():
+    for limits in ({"max_motion_calls": 5}, {"max_seconds": 1.5}, {"max_motion_calls": 5, "max_seconds": 1.5}):
+        with prepare(line_registry(), config(solver="search", **limits)) as prepared:
+            assert prepared.config.budget == Budget(**limits)
+    with prepare(line_registry(), config()) as prepared:
+        assert prepared.config.max_motion_calls is None
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("llm", "random"), ("model", "m"), ("temperature", 0.0), ("max_reply_tokens", 9), ("max_tokens_total", 9)],
+)
+def test_what_belongs_to_a_model_is_refused_by_a_search(name, value):
+    sentence = f"the solver 'search' asks no model: leave out --{name.replace('_', '-')}."
+    assert complaint(config, solver="search", **{name: value}) == sentence
+
+
+def test_the_loop_takes_a_limit_of_motion_calls_as_well():
+    model = ScriptedLLM(lambda request: reply(go(len(request.context.trace) + 1)))
+    with assemble(line_registry(), config(max_motion_calls=3), LineInstance(0.0)) as run:
+        result = with_model(run, model).solve()
+    assert (result.stop, result.stats.motion_calls, result.stats.llm_calls) == ("motions", 3, 3)
+
+
+# ---- prepared, opened, remade --------------------------------------------------------------------------------------
+
+
+def test_what_is_prepared_has_no_world_yet_and_says_what_it_will_use():
+    made = []
+
+    class Watched(FullLineDomain):
+        def make(self, instance, options):
+            made.append(instance)
+            return super().make(instance, options)
+
+    with prepare(registry_with(Watched), config(options={"ground": "wet"})) as prepared:
+        assert made == []
+        assert prepared.config == config(setting="far", llm="offline", timing="none", options={"ground": "wet"})
+        assert (prepared.language_model, prepared.instance) == (False, LineInstance(0.0))
+        assert prepared.notice.startswith("No language model is used")
+        assert prepared.options == {"ground": "wet", "colour": "red"}
+        with prepared.open() as run:
+            assert made == [LineInstance(0.0)]
+            assert run.solve().solved
+
+
+def test_the_plugins_of_a_run_are_named_with_where_they_come_from():
+    with prepare(line_registry(), config(strategy="scratch", feedback="none", llm="random")) as prepared:
+        assert prepared.plugins == {
+            "domain/full-line": "line (test)",
+            "planner/birrt": "line (test)",
+            "strategy/scratch": "templates (test)",
+            "feedback/none": "line (test)",
+            "backend/random": "standins (test)",
+        }
+    with prepare(line_registry(), config(solver="search")) as prepared:
+        assert set(prepared.plugins) == {"domain/full-line", "planner/birrt"}
+
+
+class Second(Line):
+    """A world that was made of another one."""
+
+
+class Thrifty(FullLineDomain):
+    """Makes one world out of another, unless told not to."""
+
+    def remake(self, env, instance, options):
+        if instance.start == 13 / 2:
+            raise ZeroDivisionError("no way")
+        return None if options["ground"] == "wet" else Second(start=instance.start)
+
+
+def registry_with(domain):
+    class Plugin(LinePlugin):
+        @hookimpl
+        def llm3_domains(self):
+            return {"full-line": domain}
+
+    registry = Registry()
+    registry.register(Plugin(), "other line")
+    import llm3_standins.plugin
+    import llm3_templates.plugin
+
+    registry.register(llm3_templates.plugin, "templates")
+    registry.register(llm3_standins.plugin, "standins")
+    return registry
+
+
+def test_a_run_gives_its_world_away_and_the_next_one_is_made_of_it():
+    registry = registry_with(Thrifty)
+    with assemble(registry, config()) as run:
+        spare = run.release()
+    assert spare.closed == 0
+    with prepare(registry, config(seed=1)).open(spare=spare) as run:
+        assert type(run.problem.env) is Second
+        assert run.solve().solved
+    assert spare.closed == 0
+    assert run.problem.env.closed == 1
+
+
+@pytest.mark.parametrize(
+    ("domain", "changes", "window"),
+    [(FullLineDomain, {}, False), (Thrifty, {"options": {"ground": "wet"}}, False), (Thrifty, {}, True)],
+    ids=["no such capability", "not for this one", "not into a window"],
+)
+def test_a_spare_world_that_is_of_no_use_is_closed_and_a_new_one_made(domain, changes, window):
+    spare = Line()
+    with prepare(registry_with(domain), config(**changes)).open(window, spare) as run:
+        assert spare.closed == 1
+        assert type(run.problem.env) is Line
+        assert run.solve().solved
+
+
+def test_a_spare_world_is_closed_as_well_when_the_next_one_cannot_be_made():
+    spare = Line()
+    prepared = prepare(registry_with(Thrifty), config(), LineInstance(13 / 2))
+    text = complaint(prepared.open, spare=spare, error=PluginError)
+    assert text.startswith("Thrifty.remake raised ZeroDivisionError: no way (test_assembly.py:")
+    assert spare.closed == 1

@@ -8,9 +8,10 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from line_world import FINISH, Gamble, TickingClock, go, reply, take
+from line_world import FINISH, Gamble, LineInstance, TickingClock, go, line_registry, reply, take
 from test_records import SOLVES, make_run, record
 
+from llm3.assembly import RunConfig, Search, assemble
 from llm3.errors import BackendError, InputError
 from llm3.records import Recorder, read_events, read_exchanges, read_run
 from llm3.types import CallFailed, Completion, PromptSent, ReplyReceived, Stats
@@ -58,6 +59,22 @@ def test_what_is_written_reads_back_equal(script, gamble):
     with TemporaryDirectory() as name:
         told = happened(Path(name), script, Gamble() if gamble else None)
         assert read(Path(name)) == told
+
+
+@given(seed=st.integers(0, 99), limit=st.integers(1, 12), found=st.booleans())
+@settings(max_examples=30)
+def test_what_is_written_of_a_search_reads_back_equal(seed, limit, found):
+    regions = {("go", (), "x"): (FINISH, FINISH)} if found else {}
+    config = RunConfig("full-line", seed=seed, solver="search", max_motion_calls=limit)
+    told = []
+    with TemporaryDirectory() as name, assemble(line_registry(), config, LineInstance(0.0)) as run:
+        run = replace(run, solver=Search(regions), planner=Gamble())
+        with Recorder(Path(name), run, TickingClock()) as recorder:
+            run.solve(lambda event: (recorder(event), told.append(event)))
+        assert read(Path(name)) == told
+        assert list(read_exchanges(Path(name))) == []
+        recorded = read_run(Path(name))
+        assert (recorded.stop, recorded.plugins) == (told[-1].result.stop, run.plugins)
 
 
 @pytest.fixture(scope="module")

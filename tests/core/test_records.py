@@ -57,7 +57,8 @@ GRASP = Event(EventKind.ATTACH, object="coin", grasp=Pose((0, 0, 0.01)))
 
 def make_run(script, env=None):
     run = assemble(line_registry(), replace(CONFIG, domain="full-line", llm="random"), LineInstance(0.0))
-    run = replace(run, config=replace(CONFIG, setting="far"), backend=ScriptedLLM(script))
+    solver = replace(run.solver, backend=ScriptedLLM(script))
+    run = replace(run, config=replace(CONFIG, setting="far"), solver=solver)
     return replace(run, problem=replace(run.problem, env=env or RoughLine()))
 
 
@@ -89,6 +90,7 @@ def test_a_solved_run(tmp_path):
         "domain": "line",
         "setting": "far",
         "seed": 5,
+        "solver": "loop",
         "strategy": "backtrack",
         "feedback": "categorized",
         "llm": "scripted:replies.json",
@@ -103,6 +105,7 @@ def test_a_solved_run(tmp_path):
         "max_reply_tokens": None,
         "max_tokens_total": None,
         "max_seconds": None,
+        "max_motion_calls": None,
         "options": {"ground": "wet"},
     }
     assert found["instance"] == {"start": 0.0}
@@ -110,6 +113,13 @@ def test_a_solved_run(tmp_path):
     assert found["language_model"] is False
     assert found["notice"] == "No language model is used: the replies come from a script."
     assert set(found["versions"]) == {"python", "platform", "llm3", "numpy", "scipy", "pybullet", "ompl", "toppra"}
+    assert found["plugins"] == {
+        "domain/full-line": "line (test)",
+        "planner/birrt": "line (test)",
+        "strategy/backtrack": "templates (test)",
+        "feedback/categorized": "line (test)",
+        "backend/random": "standins (test)",
+    }
     assert (found["stats"]["llm_calls"], found["stats"]["motion_calls"]) == (3, 3)
     assert (found["unmet"], found["error"], found["time_limited"]) == ([], "", False)
     assert found["seconds"] > 0
@@ -210,7 +220,7 @@ def test_what_the_model_reads_is_in_the_record_to_the_letter(tmp_path):
     with Recorder(tmp_path, run, TickingClock()) as recorder:
         run.solve(recorder)
     sent = [line["messages"] for line in events(tmp_path) if line.get("event") == "PromptSent"]
-    asked = [[{"role": m.role, "content": m.content} for m in r.messages] for r in run.backend.requests]
+    asked = [[{"role": m.role, "content": m.content} for m in r.messages] for r in run.solver.backend.requests]
     assert sent == asked
 
 

@@ -12,7 +12,8 @@ from llm3.interfaces import BackendSettings, ModelSource
 from llm3.registry import HOOKS, BrokenPlugin
 
 ALL_HOOKS = (
-    "llm3_backends, llm3_domains, llm3_feedback, llm3_model_sources, llm3_planners, llm3_strategies, llm3_timers"
+    "llm3_backends, llm3_domains, llm3_experiments, llm3_feedback, llm3_model_sources, llm3_planners, "
+    "llm3_strategies, llm3_timers"
 )
 
 BRINGS_A_DOMAIN = """
@@ -88,7 +89,16 @@ def test_names_are_sorted_and_come_with_who_brought_them():
     assert [(r.kind, r.name, r.plugin) for r in registry.registrations("planner")] == [
         ("planner", "birrt", "line (test)")
     ]
-    assert set(HOOKS) == {"domain", "strategy", "feedback", "planner", "timer", "backend", "model source"}
+    assert set(HOOKS) == {
+        "domain",
+        "strategy",
+        "feedback",
+        "planner",
+        "timer",
+        "backend",
+        "model source",
+        "experiment",
+    }
 
 
 def test_every_hook_is_documented_and_brings_a_kind():
@@ -357,6 +367,7 @@ def test_what_ships_is_found_and_whole():
         "timer": {"toppra"},
         "backend": {"offline", "random", "replay", "scripted", "http", "litellm"},
         "model source": {"http"},
+        "experiment": {"smoke", "table1", "table2"},
     }
     assert all(isinstance(registry.strategy(name), Strategy) for name in shipped["strategy"])
     assert isinstance(registry.backend("offline", BackendSettings(stand_in=lambda *_: "")), LLMBackend)

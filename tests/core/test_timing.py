@@ -161,7 +161,8 @@ def test_a_timer_that_is_asked_for_has_to_be_there():
 def test_the_plan_on_disk_has_the_times(tmp_path):
     texts = set()
     for name, timing in (("a", None), ("b", None), ("c", "none")):
-        run = replace(run_of(registry_with_timers(), timing=timing), backend=ScriptedLLM([SOLVES]))
+        run = run_of(registry_with_timers(), timing=timing)
+        run = replace(run, solver=replace(run.solver, backend=ScriptedLLM([SOLVES])))
         folder = tmp_path / name
         folder.mkdir()
         with Recorder(folder, run, TickingClock()) as recorder:

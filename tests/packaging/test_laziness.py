@@ -16,6 +16,11 @@ LOOKS = {
     "llm3 --help": "from llm3.cli.main import main; main(['--help'])",
     "llm3 list": "from llm3.cli.main import main; main(['list'])",
     "llm3 models": "from llm3.cli.main import main; main(['models'])",
+    "prepare(boxpack)": (
+        "from llm3 import Registry, RunConfig, prepare\n"
+        "for solver in ('loop', 'search'):\n"
+        "    prepare(Registry.discover(), RunConfig('boxpack', solver=solver, timing='none')).close()"
+    ),
     "llm3 --domain kitchen": "from llm3.cli.main import main; main(['--domain', 'kitchen'])",
 }
 

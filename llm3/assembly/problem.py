@@ -1,0 +1,84 @@
+"""A problem and the world that was made for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import TracebackType
+from typing import Any
+
+from llm3.assembly.choices import settle_options
+from llm3.errors import MissingCapability
+from llm3.guarded import guarded
+from llm3.interfaces import Domain, Env, Options
+
+
+@dataclass
+class Problem:
+    """A domain's instance, its options, and the world made from them. Close it, or use it in a ``with``."""
+
+    domain: Domain
+    instance: Any
+    options: Options
+    env: Env
+    _released: bool = field(default=False, init=False, repr=False, compare=False)
+
+    def release(self) -> Env:
+        """Give the world away: whoever takes it closes it, and closing the problem leaves it open."""
+        self._released = True
+        return self.env
+
+    def close(self) -> None:
+        """Let go of the world, unless it was given away. Calling it twice does no harm."""
+        if not self._released:
+            self.env.close()
+
+    def __enter__(self) -> Problem:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False) -> Problem:
+    """Make the world of an instance, and show it in a window if asked.
+
+    Its options are those that a record keeps: `Domain.self_contained`.
+
+    Raises:
+        UnknownName: The domain has no such option.
+        MissingCapability: The domain has no window.
+    """
+    chosen = settle_options(domain, options)
+    return Problem(domain, instance, chosen, open_world(domain, instance, chosen, window))
+
+
+def open_world(domain: Domain, instance: Any, options: Options, window: bool = False, spare: Env | None = None) -> Env:
+    """A world for an instance, in a window if asked, or out of a spare one where the domain can do that.
+
+    The spare world is used up in any case.
+
+    Raises:
+        MissingCapability: The domain has no window.
+    """
+    remade = None if spare is None else _remade(domain, instance, options, window, spare)
+    if remade is not None:
+        return remade
+    if not window:
+        return guarded(domain.make, (Env,), instance, options)
+    env = guarded(domain.make_in_window, (Env, type(None)), instance, options)
+    if env is None:
+        raise MissingCapability(domain.name, "window", "--gui")
+    return env
+
+
+def _remade(domain: Domain, instance: Any, options: Options, window: bool, spare: Env) -> Env | None:
+    env = None
+    try:
+        env = None if window else guarded(domain.remake, (Env, type(None)), spare, instance, options)
+    finally:
+        if env is None:
+            spare.close()
+    return env

@@ -1,0 +1,42 @@
+"""What an experiment would be, in a few lines: for `llm3 experiment --dry-run`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from llm3.experiments import Experiment, Share
+
+
+def preview(experiment: Experiment, shares: tuple[Share, ...], folder: Path) -> Iterator[str]:
+    """A line for the whole, one for each method, and one for the bill.
+
+    Args:
+        experiment: What is asked.
+        shares: What is still to be done, by method.
+        folder: Where the runs go.
+    """
+    yield (
+        f"{experiment.name}: {_count(len(experiment), 'run')}, of {_count(len(experiment.methods), 'method')} on "
+        f"{_count(len(experiment.problems), 'problem')} with {_count(len(experiment.seeds), 'seed')}"
+    )
+    missing = sum(share.runs for share in shares)
+    if missing < len(experiment):
+        yield f"{_count(len(experiment) - missing, 'run')} ended before in {folder}, and {missing:,} are missing"
+    width = max((len(share.method) for share in shares), default=0)
+    for share in shares:
+        yield f"  {share.method:<{width}}  {_count(share.runs, 'run'):>10}, {_at_most(share)}"
+    calls = sum(share.calls for share in shares if share.language_model)
+    yield f"at most {_count(calls, 'call')} of a language model"
+
+
+def _at_most(share: Share) -> str:
+    if not share.calls:
+        return f"solver {share.asked}"
+    if share.language_model:
+        return f"at most {_count(share.calls, 'call')} of {share.asked}"
+    return f"at most {_count(share.calls, 'proposal')} of {share.asked}, which is no language model"
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number:,} {noun}{'s' * (number != 1)}"

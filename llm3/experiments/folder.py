@@ -1,0 +1,106 @@
+"""The folder of an experiment: what was asked, and a line for each run that ended."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from llm3.errors import InputError
+from llm3.experiments.experiment import Experiment, RunKey
+from llm3.experiments.run_line import RunLine
+from llm3.jsonio import loads, read_file
+from llm3.records.json_lines import read_lines
+from llm3.types import FrozenDict
+
+EXPERIMENT_FORMAT = "llm3-experiment/1"
+RUNS_FORMAT = "llm3-experiment-runs/1"
+EXPERIMENT_FILE, RUNS_FILE, RECORDS = "experiment.json", "runs.jsonl", "records"
+
+
+@dataclass(frozen=True)
+class ExperimentFile:
+    """experiment.json: what was asked, and with which versions."""
+
+    format: str
+    experiment: Experiment
+    versions: Mapping[str, str]
+    """Of the packages that a result may depend on, and of the plugins that the methods use."""
+
+    def __post_init__(self) -> None:
+        if self.format != EXPERIMENT_FORMAT:
+            raise ValueError(f"the format is {self.format!r}, and this version reads {EXPERIMENT_FORMAT!r}")
+        object.__setattr__(self, "versions", FrozenDict(self.versions))
+
+
+@dataclass(frozen=True)
+class ExperimentRecord:
+    """What is known of an experiment, which may still be going on."""
+
+    folder: Path
+    experiment: Experiment
+    versions: Mapping[str, str]
+    runs: Mapping[RunKey, RunLine]
+    """Those that ended, in the experiment's order: by seed, problem and method."""
+
+    @property
+    def missing(self) -> int:
+        """How many runs have not ended."""
+        return len(self.experiment) - len(self.runs)
+
+
+def read_experiment_folder(folder: Path) -> ExperimentRecord:
+    """Read an experiment's folder, also of one that is going on or was cut off.
+
+    Raises:
+        InputError: It is no such folder, or something in it does not have the documented form.
+    """
+    path = folder / EXPERIMENT_FILE
+    if not folder.exists():
+        raise InputError(f"{folder}: No such file or directory")
+    if not path.exists():
+        raise InputError(f"'{folder}' holds no {EXPERIMENT_FILE}: it is not the folder of an experiment.")
+    file = read_file(path, ExperimentFile)
+    ended = read_runs(folder / RUNS_FILE)
+    keys = (job_key for job_key in keys_of(file.experiment) if job_key in ended)
+    return ExperimentRecord(folder, file.experiment, file.versions, FrozenDict({key: ended[key] for key in keys}))
+
+
+def read_runs(path: Path) -> dict[RunKey, RunLine]:
+    """The last line of each run; a line that was cut off counts as none.
+
+    Raises:
+        InputError: The file cannot be read, or a line does not have the documented form.
+    """
+    if not path.exists():
+        return {}
+    lines = (loads(text, RunLine, source) for source, text in read_lines(path, RUNS_FORMAT))
+    return {line.key: line for line in lines}
+
+
+def keys_of(experiment: Experiment) -> list[RunKey]:
+    """All runs of an experiment, in order."""
+    return [
+        RunKey(method.name, problem.name, seed)
+        for seed in experiment.seeds
+        for problem in experiment.problems
+        for method in experiment.methods
+    ]
+
+
+def record_folder(experiment: Experiment, key: RunKey) -> Path:
+    """Where, below the experiment's folder, the record of a run stands."""
+    methods = _folder_names([method.name for method in experiment.methods])
+    problems = _folder_names([problem.name for problem in experiment.problems])
+    return Path(RECORDS, methods[key.method], problems[key.problem], str(key.seed))
+
+
+def _folder_names(names: list[str]) -> dict[str, str]:
+    """A folder name for each name, which any file system takes, and two of which are never one."""
+    found: dict[str, str] = {}
+    for name in names:
+        stem = re.sub(r"[^a-z0-9.]+", "-", name.lower()).strip("-.") or "unnamed"
+        number = sum(1 for other in found.values() if re.sub(r"~\d+$", "", other) == stem)
+        found[name] = stem if not number else f"{stem}~{number + 1}"
+    return found

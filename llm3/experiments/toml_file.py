@@ -1,0 +1,152 @@
+"""Experiments as people write them: TOML files, from which methods and problems are spread out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields
+from itertools import product
+from typing import Any
+
+from llm3.assembly import RunConfig
+from llm3.assembly.config import LOOP
+from llm3.errors import InputError, UnknownName
+from llm3.experiments.experiment import Experiment, Method, ProblemFamily
+from llm3.experiments.layout import Layout, Published
+from llm3.jsonio import dumps, loads
+from llm3.types import FrozenDict
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+OF_PROBLEM = ("domain", "setting", "seed", "options")
+"""Fields of a RunConfig that a problem and a seed decide."""
+METHOD_FIELDS = tuple(f.name for f in fields(RunConfig) if f.name not in OF_PROBLEM)
+"""Fields of a RunConfig that a method may set."""
+OF_MODEL = ("llm", "model", "temperature", "max_reply_tokens", "max_tokens_total")
+"""Those of them that have no meaning for a method with another backend, or with none."""
+LARGEST = 100_000
+"""Attempts of an experiment; more are a slip of the pen."""
+
+
+@dataclass(frozen=True)
+class ProblemTable:
+    """One `[[problems]]`."""
+
+    domain: str
+    setting: str | tuple[str, ...]
+    """Several stand for as many problems."""
+    name: str | None = None
+    """What tables call it; the setting, if it is left out."""
+    options: Mapping[str, str] = field(default_factory=FrozenDict)
+
+
+@dataclass(frozen=True)
+class ExperimentTable:
+    """The whole file, as it is written."""
+
+    name: str
+    problems: tuple[ProblemTable, ...]
+    methods: tuple[Mapping[str, Any], ...]
+    title: str = ""
+    attempts: int = 10
+    first_seed: int = 0
+    run: Mapping[str, Any] = field(default_factory=FrozenDict)
+    """What all methods have in common."""
+    layouts: tuple[Layout, ...] = ()
+    published: tuple[Published, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.attempts <= LARGEST:
+            raise ValueError(f"attempts must be from 1 to {LARGEST}, not {self.attempts}")
+        if self.first_seed < 0:
+            raise ValueError(f"first_seed must be 0 or more, not {self.first_seed}")
+
+
+def parse_toml(text: str, source: str) -> dict[str, Any]:
+    """What the text says.
+
+    Raises:
+        InputError: It is no TOML.
+    """
+    try:
+        return tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"{source}: no TOML: {error}") from error
+
+
+def experiment_of(written: Mapping[str, Any], source: str) -> Experiment:
+    """The experiment that a TOML file describes.
+
+    Args:
+        written: What the file says, as dicts and lists.
+        source: The file, for messages.
+
+    Raises:
+        InputError: A field is missing, unknown or of another type, or two methods have one name.
+        UnknownName: A method has a field that no run has.
+    """
+    try:
+        text = dumps(written)
+    except TypeError as error:
+        raise InputError(f"{source}: {error}") from error
+    table = loads(text, ExperimentTable, source)
+    try:
+        experiment = Experiment(
+            table.name,
+            table.title,
+            tuple(range(table.first_seed, table.first_seed + table.attempts)),
+            tuple(_problems(table)),
+            tuple(_methods(table, source)),
+            table.layouts,
+            table.published,
+        )
+    except ValueError as error:
+        raise InputError(f"{source}: {error}") from error
+    for method in experiment.methods:  # types and values
+        experiment.config(method, experiment.problems[0], experiment.seeds[0])
+    return experiment
+
+
+def _problems(table: ExperimentTable) -> Iterator[ProblemFamily]:
+    domains = {problem.domain for problem in table.problems}
+    for problem in table.problems:
+        settings = (problem.setting,) if isinstance(problem.setting, str) else problem.setting
+        for setting in settings:
+            name = setting if len(domains) == 1 else f"{problem.domain}/{setting}"
+            if problem.name is not None:
+                name = problem.name if len(settings) == 1 else f"{problem.name} ({setting})"
+            yield ProblemFamily(name, problem.domain, setting, problem.options)
+
+
+def _methods(table: ExperimentTable, source: str) -> Iterator[Method]:
+    _refuse_unknown(table.run, METHOD_FIELDS, f"[run] in {source}")
+    for number, entry in enumerate(table.methods, start=1):
+        row = entry.get("name")
+        if not isinstance(row, str) or not row.strip():
+            raise InputError(f"{source}: method {number} needs a name")
+        own = {key: value for key, value in entry.items() if key != "name"}
+        _refuse_unknown(own, METHOD_FIELDS, f"method {row!r} in {source}")
+        apart = OF_MODEL if "llm" in own or own.get("solver", LOOP) != LOOP else ()
+        common = {key: value for key, value in table.run.items() if key not in apart}
+        yield from _spread(row, {"timing": "none", **common, **own}, source)
+
+
+def _spread(row: str, settings: Mapping[str, Any], source: str) -> Iterator[Method]:
+    """A method for each combination of the values of lists."""
+    several = {key: value for key, value in settings.items() if isinstance(value, list | tuple)}
+    for key, values in several.items():
+        if not values:
+            raise InputError(f"{source}: method {row!r} has an empty list of {key}")
+    for values in product(*several.values()):
+        told = [str(value) for value, others in zip(values, several.values(), strict=True) if len(others) > 1]
+        name = f"{row} ({', '.join(told)})" if told else row
+        yield Method(name, row, {**settings, **dict(zip(several, values, strict=True))})
+
+
+def _refuse_unknown(given: Mapping[str, Any], known: tuple[str, ...], owner: str) -> None:
+    for key in given:
+        if key not in known:
+            raise UnknownName("field", key, known, owner=owner)

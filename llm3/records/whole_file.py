@@ -1,0 +1,14 @@
+"""Files that are there as a whole or not at all."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a file beside its place and move it there: whoever is killed leaves the old file or the new one."""
+    beside = path.with_name(f"{path.name}.{os.getpid()}.new")
+    with beside.open("w", encoding="utf-8") as file:  # a killed process of this number may have left one
+        file.write(text)
+    beside.replace(path)

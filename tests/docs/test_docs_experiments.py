@@ -5,7 +5,7 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
-from docs_pages import blocks, page, table
+from docs_pages import ROOT, blocks, page, table
 
 from llm3.cli.main import main
 from llm3.experiments import MEASURES, RunLine, experiment_of, parse_toml
@@ -65,3 +65,15 @@ def test_the_example_says_what_it_seems_to_say(written):
     assert [method.name for method in experiment.methods] == ["rules", "random", "search"]
     assert [problem.name for problem in experiment.problems] == ["easy-small", "hard-large"]
     assert len(experiment) == 30
+
+
+def test_the_readme_counts_as_a_dry_run_does(tmp_path, monkeypatch, capsys):
+    (line,) = [line for line in (ROOT / "README.md").read_text(encoding="utf-8").splitlines() if "--dry-run" in line]
+    command, _, told = line.partition("#")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("OPENAI_API_KEY", "none")
+    assert main(shlex.split(command)[1:]) == 0
+    printed = capsys.readouterr().out
+    runs, calls = (part.strip() for part in told.split(", "))
+    assert f"table1: {runs}, of 4 methods" in printed
+    assert f"{calls} of a language model\n" in printed

@@ -16,7 +16,8 @@ UNTIMED = "none"
 """The name that means no timer."""
 LOOP, SEARCH = "loop", "search"
 """The names of the solvers: the paper's loop with a model, and a search without one."""
-_OF_A_MODEL = ("llm", "model", "temperature", "max_reply_tokens", "max_tokens_total")
+OF_A_MODEL = ("llm", "model", "temperature", "max_reply_tokens", "max_tokens_total")
+"""What has no meaning for a solver that asks no model."""
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ class RunConfig:
             raise UsageError(f"the tokens of a reply must be at least 1, not {self.max_reply_tokens}.")
         if self.solver not in (LOOP, SEARCH):
             raise UnknownName("solver", self.solver, (LOOP, SEARCH))
-        for name in _OF_A_MODEL:
+        for name in OF_A_MODEL:
             if self.is_search and getattr(self, name) is not None:
                 raise UsageError(f"the solver {SEARCH!r} asks no model: leave out --{name.replace('_', '-')}.")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from types import TracebackType
 from typing import Any
@@ -80,5 +81,6 @@ def _remade(domain: Domain, instance: Any, options: Options, window: bool, spare
         env = None if window else guarded(domain.remake, (Env, type(None)), spare, instance, options)
     finally:
         if env is None:
-            spare.close()
+            with suppress(Exception):  # it has done its work, and the new world must not answer for it
+                spare.close()
     return env

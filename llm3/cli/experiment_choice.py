@@ -23,7 +23,7 @@ def add_choice_arguments(parser: ArgumentParser) -> None:
         metavar="NAME",
         help="the backend of methods that name none (default: offline, no language model)",
     )
-    add("--attempts", type=int, metavar="N", help="how many seeds")
+    add("--attempts", metavar="N", help="how many seeds")
     add("--seed", type=seed, metavar="N", help="the first of them")
     add("--method", metavar="NAME", action="append", default=[], help="only this one; may be given several times")
     add("--problem", metavar="NAME", action="append", default=[], help="only this one; may be given several times")
@@ -39,7 +39,7 @@ def add_choice_arguments(parser: ArgumentParser) -> None:
 
 
 def chosen_experiment(registry: Registry, arguments: Namespace) -> Experiment:
-    """The experiment of the flags.
+    """The experiment of the flags, all of it.
 
     Raises:
         LLM3Error: There is none of this name, or its file or a flag says what cannot be.
@@ -51,6 +51,15 @@ def chosen_experiment(registry: Registry, arguments: Namespace) -> Experiment:
         used = {method.settings.get(flag) for method in experiment.methods}
         if given and not used & set(given):
             raise UsageError(f"every method of {experiment.name!r} has a backend of its own: leave out --{flag}.")
+    return experiment
+
+
+def chosen_part(experiment: Experiment, arguments: Namespace) -> Experiment:
+    """The methods and problems that are to be run.
+
+    Raises:
+        UnknownName: There is none of a name.
+    """
     return experiment.only(tuple(arguments.method), tuple(arguments.problem))
 
 

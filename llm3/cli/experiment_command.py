@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
-from llm3.cli.experiment_choice import add_choice_arguments, chosen_experiment, chosen_limits
+from llm3.cli.experiment_choice import (
+    add_choice_arguments,
+    chosen_experiment,
+    chosen_limits,
+    chosen_part,
+)
 from llm3.cli.experiment_preview import preview
 from llm3.cli.problem_arguments import path
 from llm3.cli.text import emit, printable
@@ -18,14 +23,19 @@ from llm3.experiments import (
     Experiment,
     ExperimentWriter,
     MethodOutlook,
+    RunLine,
     look_ahead,
     missing_jobs,
     read_experiment_folder,
     run_experiment,
+    settled,
     shares,
     versions_of,
 )
 from llm3.registry import Registry
+
+if TYPE_CHECKING:
+    from llm3.cli.experiment_view import ExperimentView
 
 FOLDER = Path("experiments")
 """Where experiments go that are given no folder."""
@@ -51,27 +61,32 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add("--no-records", dest="records", action="store_false", help="keep of each run only what came of it")
     add("--retry", action="store_true", help="do those runs again that ended with an error or a crash")
-    add("--extend", action="store_true", help="go on in DIR with other methods, problems, seeds or versions")
+    add("--mix-versions", action="store_true", help="go on in DIR though other versions began there")
     add("--quiet", action="store_true", help="no progress on stderr")
 
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command: 0 all runs have ended, 1 some of them with an error or a crash."""
     registry = Registry.discover()
-    experiment = chosen_experiment(registry, arguments)
+    whole = settled(registry, chosen_experiment(registry, arguments))
+    experiment = chosen_part(whole, arguments)
     limits = chosen_limits(experiment, arguments.limits)
     if arguments.dask is not None and arguments.workers != 1:
         raise UsageError("--workers and --dask both say where runs are done: give one of them.")
     outlooks = look_ahead(registry, experiment)
-    folder: Path = arguments.out or FOLDER / experiment.name
+    folder: Path = arguments.out or FOLDER / whole.name
     if arguments.dry_run:
         done = read_experiment_folder(folder).runs if folder.exists() else {}
         jobs = missing_jobs(experiment, done, arguments.retry)
         lines = preview(experiment, shares(experiment, jobs, outlooks), folder)
         emit("".join(f"{printable(line, keep_spaces=True)}\n" for line in lines), out)
         return 0
-    with ExperimentWriter(folder, experiment, versions_of(outlooks.values()), arguments.extend) as writer:
-        _run(experiment, writer, limits, outlooks, arguments)
+    versions = versions_of(experiment, outlooks.values())
+    with (
+        _executor(arguments) as (executor, slots),
+        ExperimentWriter(folder, whole, versions, arguments.mix_versions) as writer,
+    ):
+        _run(experiment, writer, executor, slots, limits, outlooks, arguments)
         failed = any(writer.ended[job.key].failed for job in experiment.jobs())
     emit(_results(folder), out)
     return 1 if failed else 0
@@ -80,6 +95,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
 def _run(
     experiment: Experiment,
     writer: ExperimentWriter,
+    executor: Executor,
+    slots: int,
     limits: Mapping[str, int],
     outlooks: Mapping[str, MethodOutlook],
     arguments: Namespace,
@@ -93,11 +110,11 @@ def _run(
     if len(jobs) < len(experiment):
         view.note(f"{len(experiment) - len(jobs)} of {len(experiment)} runs ended before in {writer.folder}")
     if not jobs:
+        _tell_of_failures(view, writer.ended.values())
         return
     try:
-        with _executor(arguments, len(jobs)) as (executor, slots), view:
+        with view:
             run_experiment(
-                experiment,
                 jobs,
                 writer,
                 executor,
@@ -107,22 +124,26 @@ def _run(
                 watcher=view,
             )
     finally:
-        ended = sum(job.key in writer.ended for job in experiment.jobs())
-        if ended < len(experiment):
-            view.note(f"{ended} of {len(experiment)} runs have ended; the same command goes on with the rest")
+        ended = [writer.ended[job.key] for job in experiment.jobs() if job.key in writer.ended]
+        if len(ended) < len(experiment):
+            view.note(f"{len(ended)} of {len(experiment)} runs have ended; the same command goes on with the rest")
+        _tell_of_failures(view, ended)
+
+
+def _tell_of_failures(view: ExperimentView, ended: Iterable[RunLine]) -> None:
+    failed = sum(line.failed for line in ended)
+    if failed:
+        view.note(f"{failed} of them ended with an error or a crash; with --retry they are done again")
 
 
 @contextmanager
-def _executor(arguments: Namespace, jobs: int) -> Iterator[tuple[Executor, int]]:
+def _executor(arguments: Namespace) -> Iterator[tuple[Executor, int]]:
     """Where runs are done, and how many at once."""
     if arguments.dask is None:
         from llm3.experiments.workers import SpawnedWorkers
 
-        count = min(arguments.workers, jobs)
-        with ExitStack() as stack:
-            workers = stack.enter_context(SpawnedWorkers(count))
-            stack.callback(workers.stop)  # whatever is still running then is not wanted
-            yield workers, count
+        with SpawnedWorkers(arguments.workers) as workers:
+            yield workers, arguments.workers
         return
     from llm3.experiments.cluster import connect
 

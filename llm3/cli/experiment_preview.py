@@ -32,7 +32,7 @@ def preview(experiment: Experiment, shares: tuple[Share, ...], folder: Path) -> 
 
 def _at_most(share: Share) -> str:
     if not share.calls:
-        return f"solver {share.asked}"
+        return f"at most {_count(share.motion_calls, 'motion call')} of the solver {share.asked}"
     if share.language_model:
         return f"at most {_count(share.calls, 'call')} of {share.asked}"
     return f"at most {_count(share.calls, 'proposal')} of {share.asked}, which is no language model"

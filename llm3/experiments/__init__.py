@@ -3,7 +3,7 @@
 from llm3.experiments.experiment import Experiment, Job, Method, ProblemFamily, RunKey
 from llm3.experiments.folder import ExperimentRecord, read_experiment_folder, record_folder
 from llm3.experiments.layout import MEASURES, Column, Group, Layout, Published
-from llm3.experiments.outlook import MethodOutlook, Share, look_ahead, providers, shares, versions_of
+from llm3.experiments.outlook import MethodOutlook, Share, look_ahead, providers, settled, shares, versions_of
 from llm3.experiments.overrides import overridden
 from llm3.experiments.run import missing_jobs, run_experiment
 from llm3.experiments.run_line import RunLine
@@ -35,6 +35,7 @@ __all__ = [
     "read_experiment_folder",
     "record_folder",
     "run_experiment",
+    "settled",
     "shares",
     "versions_of",
 ]

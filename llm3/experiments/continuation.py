@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Protocol, TypeVar
 
-from llm3.errors import UsageError
-from llm3.experiments.experiment import Experiment
+from llm3.experiments.experiment import Experiment, RunKey
 from llm3.jsonio import dumps
 
 
@@ -20,67 +19,45 @@ class Named(Protocol):
 
 
 N = TypeVar("N", bound=Named)
-SHOWN = 5
-"""Longer lists are told by their ends."""
 
 
-def differences(there: Experiment, asked: Experiment) -> Iterator[str]:
-    """What results depend on and is not the same, in words."""
-    if there.name != asked.name:
-        yield f"the name is {there.name!r}, not {asked.name!r}"
-    for what, found, wanted in (
-        ("seeds", there.seeds, asked.seeds),
-        ("methods", _names(there.methods), _names(asked.methods)),
-        ("problems", _names(there.problems), _names(asked.problems)),
-    ):
-        if found != wanted:
-            yield f"the {what} are {_short(found)}, not {_short(wanted)}"
-    yield from _other_settings(there, asked)
+def differences(there: Experiment, asked: Experiment, ended: Collection[RunKey]) -> Iterator[str]:
+    """Why runs that ended are no runs of what is asked now, in words; more seeds, methods or problems are no reason.
 
-
-def version_differences(there: Mapping[str, str], here: Mapping[str, str]) -> Iterator[str]:
-    """Which versions are not the same, in words."""
-    for name in sorted({*there, *here}):
-        if there.get(name) != here.get(name):
-            yield f"{name} was {there.get(name, 'not there')}, and is {here.get(name, 'not there')}"
-
-
-def joined(there: Experiment, asked: Experiment) -> Experiment:
-    """Both in one: the methods, problems and seeds of either.
-
-    Raises:
-        UsageError: Something of the same name is not the same in both.
+    Args:
+        there: What was asked before.
+        asked: What is asked now.
+        ended: The runs that ended. What has none may have changed.
     """
-    for difference in _other_settings(there, asked):
-        raise UsageError(f"two experiments cannot be joined: {difference}.")
+    if there.name != asked.name:
+        yield f"its name is {there.name!r}, not {asked.name!r}"
+    yield from _changed("method", there.methods, asked.methods, {key.method for key in ended})
+    yield from _changed("problem", there.problems, asked.problems, {key.problem for key in ended})
+
+
+def version_differences(there: Mapping[str, str], here: Mapping[str, str]) -> Mapping[str, str]:
+    """The versions there that are others here; what only one of them knows is not compared."""
+    return {name: there[name] for name in sorted(there.keys() & here.keys()) if there[name] != here[name]}
+
+
+def joined(there: Experiment, asked: Experiment, ended: Collection[RunKey]) -> Experiment:
+    """What is asked now, with everything from before that has runs."""
+    methods, problems = {key.method for key in ended}, {key.problem for key in ended}
     return replace(
         asked,
-        seeds=tuple(sorted({*there.seeds, *asked.seeds})),
-        methods=_union(there.methods, asked.methods),
-        problems=_union(there.problems, asked.problems),
+        seeds=tuple(sorted({*asked.seeds, *(key.seed for key in ended)})),
+        methods=_with(asked.methods, there.methods, methods),
+        problems=_with(asked.problems, there.problems, problems),
     )
 
 
-def _other_settings(there: Experiment, asked: Experiment) -> Iterator[str]:
-    yield from _changed("method", there.methods, asked.methods)
-    yield from _changed("problem", there.problems, asked.problems)
-
-
-def _changed(what: str, there: Iterable[Named], asked: Iterable[Named]) -> Iterator[str]:
+def _changed(what: str, there: Iterable[Named], asked: Iterable[Named], used: Collection[str]) -> Iterator[str]:
     known = {item.name: item for item in there}
     for item in asked:
-        if item.name in known and dumps(known[item.name]) != dumps(item):
-            yield f"the {what} {item.name!r} has other settings"
+        if item.name in known and item.name in used and dumps(known[item.name]) != dumps(item):
+            yield f"its {what} {item.name!r} has other settings"
 
 
-def _union(there: tuple[N, ...], asked: tuple[N, ...]) -> tuple[N, ...]:
-    return tuple({item.name: item for item in (*there, *asked)}.values())
-
-
-def _names(items: Iterable[Named]) -> tuple[str, ...]:
-    return tuple(item.name for item in items)
-
-
-def _short(values: Sequence[object]) -> str:
-    told = [str(value) for value in values]
-    return ", ".join(told if len(told) <= SHOWN else [*told[: SHOWN - 2], "…", told[-1]])
+def _with(asked: tuple[N, ...], there: tuple[N, ...], used: Collection[str]) -> tuple[N, ...]:
+    names = {item.name for item in asked}
+    return (*asked, *(item for item in there if item.name in used and item.name not in names))

@@ -13,6 +13,20 @@ from llm3.experiments.layout import Layout, Published
 from llm3.jsonio import dumps, loads
 from llm3.types import FrozenDict
 
+LONGEST_NAME = 200
+
+
+def check_name(what: str, name: str) -> None:
+    """Refuse what cannot be printed in a table or be part of a file's name.
+
+    Raises:
+        ValueError: It cannot.
+    """
+    if not name.strip() or not name.isprintable() or len(name) > LONGEST_NAME:
+        raise ValueError(
+            f"the name of a {what} is a printable text of 1 to {LONGEST_NAME} characters, not {name[:LONGEST_NAME]!r}"
+        )
+
 
 @dataclass(frozen=True)
 class ProblemFamily:
@@ -89,6 +103,24 @@ class Experiment:
             twice = [name for name, count in Counter(names).items() if count > 1]
             if twice:
                 raise ValueError(f"the {what} {twice[0]!r} is there twice")
+        for what, name in self._names():
+            check_name(what, name)
+        self._check_places()
+
+    def _names(self) -> Iterator[tuple[str, str]]:
+        yield from (("problem", problem.name) for problem in self.problems)
+        yield from (("method", name) for method in self.methods for name in (method.name, method.row))
+
+    def _check_places(self) -> None:
+        """Refuse tables with columns of what is not here."""
+        known = [problem.name for problem in self.problems]
+        for layout in self.layouts:
+            for name in (column.problem for group in layout.groups for column in group.columns):
+                if name not in known:
+                    raise ValueError(
+                        f"layout {layout.title!r} has a column of {name!r}, which is none of the problems: "
+                        f"{', '.join(known)}"
+                    )
 
     def __len__(self) -> int:
         return len(self.seeds) * len(self.problems) * len(self.methods)
@@ -118,7 +150,7 @@ class Experiment:
                     yield Job(RunKey(method.name, problem.name, seed), config)
 
     def only(self, methods: tuple[str, ...] = (), problems: tuple[str, ...] = ()) -> Experiment:
-        """The same with some of its methods and problems; all where none is named.
+        """Some of its methods and problems, all where none is named, without its tables.
 
         Raises:
             UnknownName: It has none of this name.
@@ -131,10 +163,10 @@ class Experiment:
             for name in wanted:
                 if name not in known:
                     raise UnknownName(what, name, known, owner=owner)
-        kept = tuple(p for p in self.problems if not problems or p.name in problems)
         return replace(
             self,
             methods=tuple(m for m in self.methods if not methods or m.name in methods or m.row in methods),
-            problems=kept,
-            layouts=tuple(layout.only({p.name for p in kept}) for layout in self.layouts),
+            problems=tuple(p for p in self.problems if not problems or p.name in problems),
+            layouts=(),
+            published=(),
         )

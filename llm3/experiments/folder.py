@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 
 from llm3.errors import InputError
@@ -16,6 +17,7 @@ from llm3.types import FrozenDict
 
 EXPERIMENT_FORMAT = "llm3-experiment/1"
 RUNS_FORMAT = "llm3-experiment-runs/1"
+LONGEST_STEM = 60
 EXPERIMENT_FILE, RUNS_FILE, RECORDS = "experiment.json", "runs.jsonl", "records"
 
 
@@ -27,11 +29,14 @@ class ExperimentFile:
     experiment: Experiment
     versions: Mapping[str, str]
     """Of the packages that a result may depend on, and of the plugins that the methods use."""
+    earlier: tuple[Mapping[str, str], ...] = ()
+    """Other versions that some of the runs were made with, those that differ alone."""
 
     def __post_init__(self) -> None:
         if self.format != EXPERIMENT_FORMAT:
             raise ValueError(f"the format is {self.format!r}, and this version reads {EXPERIMENT_FORMAT!r}")
         object.__setattr__(self, "versions", FrozenDict(self.versions))
+        object.__setattr__(self, "earlier", tuple(map(FrozenDict, self.earlier)))
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,10 @@ class ExperimentRecord:
     versions: Mapping[str, str]
     runs: Mapping[RunKey, RunLine]
     """Those that ended, in the experiment's order: by seed, problem and method."""
+    earlier: tuple[Mapping[str, str], ...] = ()
+    """Other versions that some of them were made with."""
+    strangers: int = 0
+    """Lines of runs that the experiment does not have."""
 
     @property
     def missing(self) -> int:
@@ -63,8 +72,8 @@ def read_experiment_folder(folder: Path) -> ExperimentRecord:
         raise InputError(f"'{folder}' holds no {EXPERIMENT_FILE}: it is not the folder of an experiment.")
     file = read_file(path, ExperimentFile)
     ended = read_runs(folder / RUNS_FILE)
-    keys = (job_key for job_key in keys_of(file.experiment) if job_key in ended)
-    return ExperimentRecord(folder, file.experiment, file.versions, FrozenDict({key: ended[key] for key in keys}))
+    ours = FrozenDict({key: ended[key] for key in keys_of(file.experiment) if key in ended})
+    return ExperimentRecord(folder, file.experiment, file.versions, ours, file.earlier, len(ended) - len(ours))
 
 
 def read_runs(path: Path) -> dict[RunKey, RunLine]:
@@ -89,18 +98,15 @@ def keys_of(experiment: Experiment) -> list[RunKey]:
     ]
 
 
-def record_folder(experiment: Experiment, key: RunKey) -> Path:
+def record_folder(key: RunKey) -> Path:
     """Where, below the experiment's folder, the record of a run stands."""
-    methods = _folder_names([method.name for method in experiment.methods])
-    problems = _folder_names([problem.name for problem in experiment.problems])
-    return Path(RECORDS, methods[key.method], problems[key.problem], str(key.seed))
+    return Path(RECORDS, folder_name(key.method), folder_name(key.problem), str(key.seed))
 
 
-def _folder_names(names: list[str]) -> dict[str, str]:
-    """A folder name for each name, which any file system takes, and two of which are never one."""
-    found: dict[str, str] = {}
-    for name in names:
-        stem = re.sub(r"[^a-z0-9.]+", "-", name.lower()).strip("-.") or "unnamed"
-        number = sum(1 for other in found.values() if re.sub(r"~\d+$", "", other) == stem)
-        found[name] = stem if not number else f"{stem}~{number + 1}"
-    return found
+def folder_name(name: str) -> str:
+    """A folder's name for a method or a problem, which any file system takes.
+
+    Two names never share one: what is lost on the way is made up for by a digest of the name.
+    """
+    stem = re.sub(r"[^a-z0-9.]+", "-", name.lower()).strip("-.")[:LONGEST_STEM].strip("-.")
+    return stem if stem == name else f"{stem}~{sha256(name.encode()).hexdigest()[:8]}"

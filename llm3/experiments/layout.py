@@ -58,10 +58,13 @@ class Published:
     """Figures of other people for the same table."""
 
     source: str
+    """Where they stand, in a line."""
     measures: tuple[str, ...]
     """What the numbers of a place are, in their order."""
     figures: Mapping[str, Mapping[str, tuple[float, ...]]]
     """By the row of a method and the name of a problem; success in percent."""
+    label: str = "published"
+    """What tables call their rows, such as ``the paper``."""
 
     def __post_init__(self) -> None:
         check_measures(self.measures)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
 
 from llm3.assembly import prepare
-from llm3.experiments.experiment import Experiment, Job
+from llm3.assembly.choices import settle_options
+from llm3.experiments.experiment import Experiment, Job, ProblemFamily
 from llm3.experiments.schedule import provider
 from llm3.records.run_file import versions
 from llm3.registry import Registry
@@ -22,6 +25,8 @@ class MethodOutlook:
 
     language_model: bool
     """Whether it asks one."""
+    motion_calls: int
+    """How many it may make; 0 for no limit."""
     notice: str
     """What the user should read before, or nothing."""
     plugins: Mapping[str, str]
@@ -41,15 +46,40 @@ def look_ahead(registry: Registry, experiment: Experiment) -> Mapping[str, Metho
             config = experiment.config(method, problem, experiment.seeds[0])
             with prepare(registry, config) as prepared:
                 plugins |= prepared.plugins
-                outlook = MethodOutlook(prepared.language_model, prepared.notice, FrozenDict(plugins))
+                most = prepared.config.max_motion_calls or 0
+                outlook = MethodOutlook(prepared.language_model, most, prepared.notice, FrozenDict(plugins))
         found[method.name] = outlook
     return found
 
 
-def versions_of(outlooks: Iterable[MethodOutlook]) -> Mapping[str, str]:
-    """What the results depend on: packages, and the plugins that the methods use."""
+def settled(registry: Registry, experiment: Experiment) -> Experiment:
+    """The same with what is in files in place of their names, where a domain's options name files.
+
+    Raises:
+        LLM3Error: There is no such domain, option or file.
+    """
+    return replace(experiment, problems=tuple(_settled(registry, problem) for problem in experiment.problems))
+
+
+def _settled(registry: Registry, problem: ProblemFamily) -> ProblemFamily:
+    if not problem.options:
+        return problem
+    options = settle_options(registry.domain(problem.domain), problem.options)
+    return replace(problem, options={name: options[name] for name in problem.options})
+
+
+def versions_of(experiment: Experiment, outlooks: Iterable[MethodOutlook]) -> Mapping[str, str]:
+    """What the results depend on: packages, the plugins that the methods use, and the files that backends read."""
     packages = {name: version for name, version in versions().items() if name not in MACHINE}
-    return FrozenDict({**packages, **{k: v for outlook in outlooks for k, v in sorted(outlook.plugins.items())}})
+    plugins = {name: origin for outlook in outlooks for name, origin in sorted(outlook.plugins.items())}
+    return FrozenDict({**packages, **plugins, **dict(_files(experiment))})
+
+
+def _files(experiment: Experiment) -> Iterator[tuple[str, str]]:
+    for method in experiment.methods:
+        _, _, argument = str(method.settings.get("llm", "")).partition(":")
+        if argument and Path(argument).is_file():
+            yield f"file {argument}", sha256(Path(argument).read_bytes()).hexdigest()[:12]
 
 
 @dataclass(frozen=True)
@@ -59,7 +89,9 @@ class Share:
     method: str
     runs: int
     calls: int
-    """Answers of a model, or proposals of what stands in for one; 0 where there is no such limit."""
+    """Answers of a model, or proposals of what stands in for one; 0 for a solver that asks nobody."""
+    motion_calls: int
+    """The motion calls of a solver that asks nobody; 0 where they have no limit."""
     asked: str
     """The model, the stand-in, or the solver."""
     language_model: bool
@@ -75,6 +107,7 @@ def shares(experiment: Experiment, jobs: Iterable[Job], outlooks: Mapping[str, M
             name,
             len(ours),
             sum(0 if job.config.is_search else job.config.max_llm_calls for job in ours),
+            sum(outlooks[name].motion_calls for _ in ours if ours[0].config.is_search),
             _asked(ours[0]),
             outlooks[name].language_model,
         )

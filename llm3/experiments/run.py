@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import traceback
-from collections import deque
-from collections.abc import Callable, Mapping
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from collections import defaultdict, deque
+from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
+from functools import partial
 
 from llm3.errors import LLM3Error
 from llm3.experiments.experiment import Experiment, Job, RunKey
@@ -17,7 +18,7 @@ from llm3.experiments.writer import ExperimentWriter
 from llm3.jsonio import dumps, loads
 
 PATIENCE = 10
-"""So many runs, one after the other, that end with the same error end the experiment."""
+"""So many runs of one method, one after the other, that end with the same error end the experiment."""
 
 Watcher = Callable[[RunLine], None]
 """Is told of each run that ended."""
@@ -36,8 +37,7 @@ def missing_jobs(experiment: Experiment, ended: Mapping[RunKey, RunLine], retry:
 
 
 def run_experiment(
-    experiment: Experiment,
-    jobs: list[Job],
+    jobs: Iterable[Job],
     writer: ExperimentWriter,
     executor: Executor,
     slots: int,
@@ -50,7 +50,6 @@ def run_experiment(
     """Do these runs. Whatever ends this, the lines of the runs that ended are in the folder.
 
     Args:
-        experiment: What the jobs are of.
         jobs: What is to be done, in order.
         writer: Where the lines go; nobody else writes them.
         executor: Where runs are done. It gets a function and a text, and answers with a text.
@@ -61,36 +60,53 @@ def run_experiment(
         work: What the executor is given to do, with an `Assignment` as JSON; it answers with a `RunLine` as JSON.
 
     Raises:
-        LLM3Error: Many runs in a row ended with the same error.
+        LLM3Error: Many runs of a method in a row ended with the same error, or no worker can do any run.
     """
     schedule = Schedule(jobs, limits)
     running: dict[Future[str], Job] = {}
-    errors: deque[str] = deque(maxlen=PATIENCE)
+    recent: defaultdict[str, deque[str]] = defaultdict(partial(deque, maxlen=PATIENCE))
+
+    def keep(future: Future[str]) -> None:
+        job = running[future]
+        line = _line(job, future)
+        writer.add(line)
+        del running[future]
+        schedule.ended(job)
+        watcher(line)
+        recent[job.key.method].append(line.error if line.status == "error" else "")
+
     try:
         while True:
             while len(running) < slots and (job := schedule.next()):
-                folder = str(writer.folder.absolute() / record_folder(experiment, job.key)) if records else None
+                folder = str(writer.folder.absolute() / record_folder(job.key)) if records else None
                 running[executor.submit(work, dumps(Assignment(job, folder)))] = job
             if not running:
                 return
             for future in wait(running, return_when=FIRST_COMPLETED).done:
-                job = running.pop(future)
-                schedule.ended(job)
-                line = _line(job, future)
-                writer.add(line)
-                watcher(line)
-                errors.append(line.error if line.status == "error" else "")
-                if len(errors) == PATIENCE and line.error and set(errors) == {line.error}:
-                    raise LLM3Error(f"the last {PATIENCE} runs ended with the same error: {line.error}")
+                keep(future)
+            for method, errors in recent.items():
+                if len(errors) == PATIENCE and errors[0] and len(set(errors)) == 1:
+                    raise LLM3Error(f"the last {PATIENCE} runs of {method!r} ended with the same error: {errors[0]}")
     finally:
-        for future in running:
-            future.cancel()
+        for future in list(running):
+            if not future.cancel() and future.done() and not _is_lost(future):
+                keep(future)
+
+
+def _is_lost(future: Future[str]) -> bool:
+    """Whether nobody did the work, as opposed to somebody who died over it."""
+    return future.cancelled() or isinstance(future.exception(), LLM3Error)
 
 
 def _line(job: Job, future: Future[str]) -> RunLine:
     """What a worker answered, or that it died over the job."""
     try:
         return loads(future.result(), RunLine, "the answer of a worker")
+    except LLM3Error:  # no worker can do any run
+        raise
+    except CancelledError:
+        raise LLM3Error("the workers were lost: the same command goes on with the rest.") from None
     except Exception as error:  # a worker that was killed, or a cluster that gave it up
+        *_, last = str(error).strip().splitlines() or [""]
         told = "".join(traceback.format_exception(error))
-        return RunLine(job.key, "crashed", error=f"{type(error).__name__}: {error}", traceback=told)
+        return RunLine(job.key, "crashed", error=f"{type(error).__name__}: {last}", traceback=told)

@@ -22,12 +22,12 @@ class RunLine:
     stop: str = ""
     """Why it ended, as `Result.stop` says; empty for a run that did not."""
     stats: Stats = field(default=Stats())
-    attempts: int = 0
-    """Proposals that were tried: iterations."""
+    iterations: int = 0
+    """Proposals that were tried."""
     plan_length: int = 0
     """Actions of the plan that solves it."""
     failures: Mapping[str, int] = field(default_factory=FrozenDict)
-    """How many attempts each kind of failure ended, by its value; those that only missed the goal are not here."""
+    """How many iterations each kind of failure ended, by its value; those that only missed the goal are not here."""
     unmet: tuple[str, ...] = ()
     """What of the goal was missing at the end."""
     language_model: bool = False
@@ -43,6 +43,11 @@ class RunLine:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "failures", FrozenDict(self.failures))
+        counts = {"iterations": self.iterations, "plan_length": self.plan_length, "seconds": self.seconds}
+        counts |= {name: value for name, value in vars(self.stats).items() if name != "seconds"}
+        for name, value in {**counts, **self.failures}.items():
+            if value < 0:
+                raise ValueError(f"{name} is {value:g}, and less than nothing cannot be")
 
     @property
     def solved(self) -> bool:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from itertools import product
+from math import isfinite
 from typing import Any
 
 from llm3.assembly import RunConfig
-from llm3.assembly.config import LOOP
-from llm3.errors import InputError, UnknownName
+from llm3.assembly.config import LOOP, OF_A_MODEL
+from llm3.errors import InputError, LLM3Error, UnknownName
 from llm3.experiments.experiment import Experiment, Method, ProblemFamily
 from llm3.experiments.layout import Layout, Published
 from llm3.jsonio import dumps, loads
@@ -25,10 +27,10 @@ OF_PROBLEM = ("domain", "setting", "seed", "options")
 """Fields of a RunConfig that a problem and a seed decide."""
 METHOD_FIELDS = tuple(f.name for f in fields(RunConfig) if f.name not in OF_PROBLEM)
 """Fields of a RunConfig that a method may set."""
-OF_MODEL = ("llm", "model", "temperature", "max_reply_tokens", "max_tokens_total")
-"""Those of them that have no meaning for a method with another backend, or with none."""
 LARGEST = 100_000
 """Attempts of an experiment; more are a slip of the pen."""
+LARGEST_SEED = 2**63 - 1 - LARGEST
+"""What every reader of a record can hold as a whole number, the last of all seeds included."""
 
 
 @dataclass(frozen=True)
@@ -61,8 +63,10 @@ class ExperimentTable:
     def __post_init__(self) -> None:
         if not 1 <= self.attempts <= LARGEST:
             raise ValueError(f"attempts must be from 1 to {LARGEST}, not {self.attempts}")
-        if self.first_seed < 0:
-            raise ValueError(f"first_seed must be 0 or more, not {self.first_seed}")
+        if not 0 <= self.first_seed <= LARGEST_SEED:
+            raise ValueError(f"first_seed must be from 0 to {LARGEST_SEED}, not {self.first_seed}")
+        if not re.fullmatch(r"\w[\w.-]*", self.name):
+            raise ValueError(f"the name of an experiment is made of letters, digits and _.-, not {self.name!r}")
 
 
 def parse_toml(text: str, source: str) -> dict[str, Any]:
@@ -86,8 +90,8 @@ def experiment_of(written: Mapping[str, Any], source: str) -> Experiment:
 
     Raises:
         InputError: A field is missing, unknown or of another type, or two methods have one name.
-        UnknownName: A method has a field that no run has.
     """
+    _refuse_infinite(written, source)
     try:
         text = dumps(written)
     except TypeError as error:
@@ -106,8 +110,20 @@ def experiment_of(written: Mapping[str, Any], source: str) -> Experiment:
     except ValueError as error:
         raise InputError(f"{source}: {error}") from error
     for method in experiment.methods:  # types and values
-        experiment.config(method, experiment.problems[0], experiment.seeds[0])
+        try:
+            experiment.config(method, experiment.problems[0], experiment.seeds[0])
+        except LLM3Error as error:
+            raise InputError(f"{source}: {error}") from error
     return experiment
+
+
+def _refuse_infinite(value: Any, source: str, where: str = "") -> None:
+    """Refuse the numbers that TOML has and JSON has not; JSON's null would mean something else."""
+    if isinstance(value, float) and not isfinite(value):
+        raise InputError(f"{source}: {where} must be a finite number, not {value}")
+    items = value.items() if isinstance(value, Mapping) else enumerate(value) if isinstance(value, list) else ()
+    for key, child in items:
+        _refuse_infinite(child, source, f"{where}.{key}" if where else str(key))
 
 
 def _problems(table: ExperimentTable) -> Iterator[ProblemFamily]:
@@ -122,14 +138,14 @@ def _problems(table: ExperimentTable) -> Iterator[ProblemFamily]:
 
 
 def _methods(table: ExperimentTable, source: str) -> Iterator[Method]:
-    _refuse_unknown(table.run, METHOD_FIELDS, f"[run] in {source}")
+    _refuse_unknown(table.run, "[run]", source)
     for number, entry in enumerate(table.methods, start=1):
         row = entry.get("name")
         if not isinstance(row, str) or not row.strip():
             raise InputError(f"{source}: method {number} needs a name")
         own = {key: value for key, value in entry.items() if key != "name"}
-        _refuse_unknown(own, METHOD_FIELDS, f"method {row!r} in {source}")
-        apart = OF_MODEL if "llm" in own or own.get("solver", LOOP) != LOOP else ()
+        _refuse_unknown(own, f"method {row!r}", source)
+        apart = OF_A_MODEL if "llm" in own or own.get("solver", LOOP) != LOOP else ()
         common = {key: value for key, value in table.run.items() if key not in apart}
         yield from _spread(row, {"timing": "none", **common, **own}, source)
 
@@ -146,7 +162,7 @@ def _spread(row: str, settings: Mapping[str, Any], source: str) -> Iterator[Meth
         yield Method(name, row, {**settings, **dict(zip(several, values, strict=True))})
 
 
-def _refuse_unknown(given: Mapping[str, Any], known: tuple[str, ...], owner: str) -> None:
+def _refuse_unknown(given: Mapping[str, Any], owner: str, source: str) -> None:
     for key in given:
-        if key not in known:
-            raise UnknownName("field", key, known, owner=owner)
+        if key not in METHOD_FIELDS:
+            raise InputError(f"{source}: {UnknownName('field', key, METHOD_FIELDS, owner=owner)}")

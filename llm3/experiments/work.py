@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import traceback
 from collections import Counter
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -91,9 +91,10 @@ class Worker:
 
     def close(self) -> None:
         """Let go of the world. Calling it twice does no harm."""
-        if self._spare:
-            self._spare[1].close()
-            self._spare = None
+        spare, self._spare = self._spare, None
+        if spare:
+            with suppress(Exception):  # it has done its run, and the next one must not answer for it
+                spare[1].close()
 
     def _open(self, job: Job) -> Run:
         prepared = prepare(self._registry, job.config)
@@ -110,7 +111,7 @@ def _line(job: Job, result: Result) -> RunLine:
         job.key,
         "solved" if result.solved else "not solved",
         stop=result.stop,
-        attempts=len(result.attempts),
+        iterations=len(result.attempts),
         plan_length=len(result.plan),
         failures=dict(sorted(kinds.items())),
         unmet=result.goal.unmet,
@@ -121,5 +122,8 @@ def _line(job: Job, result: Result) -> RunLine:
 def _failed(job: Job, error: BaseException) -> RunLine:
     if isinstance(error, LLM3Error) and not isinstance(error, PluginError):
         return RunLine(job.key, "error", error=str(error))
+    if isinstance(error, OSError):  # plugins' own come as PluginError
+        what = error.strerror or type(error).__name__
+        return RunLine(job.key, "error", error=f"the record cannot be written: {what}.")
     told = str(error) if isinstance(error, LLM3Error) else f"{type(error).__name__}: {error}"
     return RunLine(job.key, "crashed", error=told, traceback="".join(traceback.format_exception(error)))

@@ -161,7 +161,7 @@ def _answer(message: bytes) -> bytes:
 
 
 def _end_with_parent() -> None:
-    """See to it that this process ends when the one that started it does, in whatever way and whatever this one does."""
+    """See to it that this process ends when the one that started it does, in whatever way, and whatever it does."""
     threading.Thread(target=_watch_parent, daemon=True).start()
     if sys.platform == "linux":  # the thread does not get to run while native code holds the interpreter's lock
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 from types import TracebackType
 
@@ -24,7 +23,8 @@ from llm3.experiments.folder import (
 from llm3.experiments.run_line import RunLine
 from llm3.jsonio import pretty, read_file
 from llm3.records.json_lines import LineWriter
-from llm3.records.whole_file import write_whole
+from llm3.records.whole_file import is_beside, write_whole
+from llm3.types import FrozenDict
 
 LOCK = "lock"
 
@@ -32,18 +32,19 @@ LOCK = "lock"
 class ExperimentWriter:
     """The folder of an experiment, held by this program until the ``with`` ends."""
 
-    def __init__(self, folder: Path, experiment: Experiment, versions: Mapping[str, str], extend: bool = False) -> None:
+    def __init__(
+        self, folder: Path, experiment: Experiment, versions: Mapping[str, str], mix_versions: bool = False
+    ) -> None:
         """Say what is to be written where; nothing is touched before the ``with``.
 
         Args:
             folder: The folder, which need not exist.
-            experiment: What is asked.
+            experiment: What is asked, all of it: what has no runs yet has its place in tables all the same.
             versions: What its results may depend on.
-            extend: Whether to go on where another selection of the experiment, or another version, began.
+            mix_versions: Whether to go on where other versions began.
         """
         self.folder = folder
-        self._asked = ExperimentFile(EXPERIMENT_FORMAT, experiment, versions)
-        self._extend = extend
+        self._experiment, self._versions, self._mix_versions = experiment, versions, mix_versions
         self._stack = ExitStack()
         self.ended: dict[RunKey, RunLine] = {}
         """What was found in the folder, and what was added."""
@@ -52,15 +53,14 @@ class ExperimentWriter:
         """Take hold of the folder.
 
         Raises:
-            OutputExists: It holds something else, or another experiment, or one that another version made.
+            OutputExists: It holds something else, or another experiment, or one that other versions made.
             LLM3Error: Another program writes it, or it cannot be written.
         """
         with self._stack:
             try:
                 self._take_hold()
             except OSError as error:
-                what = error.strerror or error
-                raise LLM3Error(f"the output folder '{self.folder}' cannot be written: {what}.") from error
+                raise self._unwritable(error) from error
             self._stack = self._stack.pop_all()
         return self
 
@@ -70,15 +70,25 @@ class ExperimentWriter:
         self._stack.close()
 
     def add(self, line: RunLine) -> None:
-        """Keep what came of a run."""
-        self._lines.write(line)
+        """Keep what came of a run.
+
+        Raises:
+            LLM3Error: It cannot be written, such as on a full disk.
+        """
+        try:
+            self._lines.write(line)
+        except OSError as error:
+            raise self._unwritable(error) from error
         self.ended[line.key] = line
+
+    def _unwritable(self, error: OSError) -> LLM3Error:
+        return LLM3Error(f"the output folder '{self.folder}' cannot be written: {error.strerror or error}.")
 
     def _take_hold(self) -> None:
         if self.folder.exists() and not self.folder.is_dir():
             raise OutputExists(f"'{self.folder}' is a file, not a folder: choose another.")
         path = self.folder / EXPERIMENT_FILE
-        if self.folder.exists() and not path.exists() and any(f.name != LOCK for f in self.folder.iterdir()):
+        if self.folder.exists() and not path.exists() and not all(map(_is_ours, self.folder.iterdir())):
             raise OutputExists(
                 f"the output folder '{self.folder}' is not empty and holds no experiment: choose another."
             )
@@ -90,23 +100,33 @@ class ExperimentWriter:
             raise LLM3Error(
                 f"another program is writing '{self.folder}': wait for it, or choose another folder."
             ) from None
-        file = self._continued(read_file(path, ExperimentFile)) if path.exists() else self._asked
         self.ended = read_runs(self.folder / RUNS_FILE)
+        file = ExperimentFile(EXPERIMENT_FORMAT, self._experiment, self._versions)
+        if path.exists():
+            file = self._continued(read_file(path, ExperimentFile))
         write_whole(path, pretty(file))
         self._lines = LineWriter(self.folder / RUNS_FILE, RUNS_FORMAT, go_on=True)
         self._stack.callback(self._lines.close)
 
     def _continued(self, found: ExperimentFile) -> ExperimentFile:
         """What experiment.json says from now on."""
-        asked, there = self._asked, found.experiment
-        if not self._extend:
-            changes = (
-                *differences(there, asked.experiment),
-                *version_differences(found.versions, asked.versions),
-            )
-            for change in changes:
+        for difference in differences(found.experiment, self._experiment, self.ended):
+            raise OutputExists(f"'{self.folder}' holds another experiment: {difference}. Choose another folder.")
+        changed = version_differences(found.versions, self._versions) if self.ended else {}
+        for name, version in changed.items():
+            if not self._mix_versions:
                 raise OutputExists(
-                    f"'{self.folder}' holds another experiment: {change}. Choose another folder, or give --extend to "
-                    "go on with both."
+                    f"'{self.folder}' was made with {name} {version}, and here is {self._versions[name]}: choose "
+                    "another folder, or give --mix-versions to go on with both."
                 )
-        return replace(asked, experiment=joined(there, asked.experiment))
+        return ExperimentFile(
+            EXPERIMENT_FORMAT,
+            joined(found.experiment, self._experiment, self.ended),
+            {**found.versions, **self._versions},
+            (*found.earlier, FrozenDict(changed)) if changed else found.earlier,
+        )
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file may be there before there is an experiment, as after a program that was killed at once."""
+    return path.name == LOCK or is_beside(path, EXPERIMENT_FILE)

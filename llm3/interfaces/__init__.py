@@ -7,6 +7,7 @@ from llm3.interfaces.feedback import FeedbackSynthesizer
 from llm3.interfaces.free_space import FreeSpace
 from llm3.interfaces.model_source import ModelSource
 from llm3.interfaces.planner import MotionPlanner, PlannerSettings
+from llm3.interfaces.sampling import Ranges, drawn, sampling_ranges
 from llm3.interfaces.strategy import Strategy
 from llm3.interfaces.timing import TrajectoryTimer
 from llm3.interfaces.verifier import PlanVerifier
@@ -25,8 +26,11 @@ __all__ = [
     "Options",
     "PlanVerifier",
     "PlannerSettings",
+    "Ranges",
     "Regions",
     "StandIn",
     "Strategy",
     "TrajectoryTimer",
+    "drawn",
+    "sampling_ranges",
 ]

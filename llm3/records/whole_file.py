@@ -5,10 +5,17 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+ENDING = ".new"
+
 
 def write_whole(path: Path, text: str) -> None:
     """Write a file beside its place and move it there: whoever is killed leaves the old file or the new one."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.new")
+    beside = path.with_name(f"{path.name}.{os.getpid()}{ENDING}")
     with beside.open("w", encoding="utf-8") as file:  # a killed process of this number may have left one
         file.write(text)
     beside.replace(path)
+
+
+def is_beside(path: Path, name: str) -> bool:
+    """Whether this is what a killed process left beside a file of this name."""
+    return path.name.startswith(f"{name}.") and path.name.endswith(ENDING)

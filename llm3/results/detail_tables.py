@@ -8,6 +8,7 @@ from typing import get_args
 from llm3.experiments import MEASURES
 from llm3.results.cells import POOLED, Cell, Over
 from llm3.results.differences import COMPARED, Difference
+from llm3.results.estimates import LEVEL
 from llm3.results.measures import MACHINE
 from llm3.results.numbers import NOTHING, difference_with_interval, p_value, with_interval
 from llm3.results.table import Table, one_line
@@ -19,8 +20,8 @@ def detail_table(cells: Sequence[Cell], seconds: bool = True) -> Table:
     heads = ("method", "problem", "mean over", "runs", *(MEASURES[measure] for measure in measures))
     rows = tuple(_row(cell, over, measures) for cell in cells for over in get_args(Over))
     notes = (
-        "In brackets: 95 % intervals; Wilson's for %SR, bootstrap for all others, from six runs on. One without "
-        "width comes of runs that are all alike, and says nothing of the next one.",
+        f"In brackets: {100 * LEVEL:g} % intervals; Wilson's for %SR, bootstrap for all others, from six runs on. One "
+        "without width comes of runs that are all alike, and says nothing of the next one.",
         "A run that its budget ended is no cheap one: the means over all runs have it with what it had spent by then, "
         "the means over solved runs leave it out.",
     )

@@ -43,8 +43,11 @@ class Difference:
 
 
 def within(record: ExperimentRecord) -> Iterator[Difference]:
-    """Every method against the experiment's first one."""
-    first, *others = record.experiment.methods
+    """Every method against the first one that has runs."""
+    begun = {key.method for key, run in record.runs.items() if is_attempt(run)}
+    methods = record.experiment.methods
+    first = next((method for method in methods if method.name in begun), methods[0])
+    others = [method for method in methods if method is not first]
     problems = [problem.name for problem in record.experiment.problems]
     for method in others:
         yield from _differences((record, method.name), (record, first.name), problems)

@@ -24,7 +24,7 @@ def layout_tables(experiment: Experiment, cells: Cells, seconds: bool = True) ->
 def default_layout(experiment: Experiment) -> Layout:
     """One column for each problem."""
     columns = tuple(Column(problem.name, problem.name) for problem in experiment.problems)
-    return Layout(experiment.title, ("success", "llm_calls", "motion_calls"), (Group("", columns),))
+    return Layout("", ("success", "llm_calls", "motion_calls"), (Group("", columns),))
 
 
 def _table(experiment: Experiment, layout: Layout, cells: Cells, seconds: bool) -> Table:
@@ -85,4 +85,6 @@ def _is_beside(published: Published, experiment: Experiment, places: Sequence[Pl
 
 
 def _source_name(number: int, sources: Sequence[Published]) -> str:
-    return "- the paper" if len(sources) == 1 else f"- published ({number})"
+    label = one_line(sources[number - 1].label)
+    same = [source.label for source in sources].count(sources[number - 1].label) > 1
+    return f"- {label} ({number})" if same else f"- {label}"

@@ -11,10 +11,10 @@ from llm3.experiments import RunLine
 
 VALUES: Mapping[str, Callable[[RunLine], float]] = {
     "success": lambda run: run.solved,
-    "llm_calls": lambda run: run.stats.llm_calls or run.attempts,  # without a model: iterations
+    "llm_calls": lambda run: run.stats.llm_calls,
     "motion_calls": lambda run: run.stats.motion_calls,
     "motion_calls_with_reused": lambda run: run.stats.motion_calls + run.stats.reused_actions,
-    "iterations": lambda run: run.attempts,
+    "iterations": lambda run: run.iterations,
     "tokens": lambda run: run.stats.tokens,
     "seconds": lambda run: run.seconds,
 }
@@ -29,7 +29,7 @@ def is_attempt(run: RunLine) -> bool:
 
 
 def without_model(runs: Iterable[RunLine]) -> bool:
-    """Whether no language model answered in any of them, or none that gave its name."""
+    """Whether a language model was asked in none of them."""
     return not any(run.language_model for run in runs)
 
 

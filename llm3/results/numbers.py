@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from decimal import ROUND_HALF_UP, Decimal
+
 from llm3.results.estimates import Estimate
 
 NOTHING = "-"
@@ -10,13 +12,21 @@ WHOLE_FROM = 1000
 
 
 def percent(share: float) -> str:
-    """A share in percent, with a decimal if it has one."""
-    return f"{100 * share:.1f}".removesuffix(".0")
+    """A share in percent, with a decimal if it has one; only all and nothing are 100 and 0."""
+    text = _rounded(100 * share, 1).removesuffix(".0")
+    return text if share in (0, 1) or text not in ("0", "100") else f"{100 * share:.3g}" if share < 0.5 else ">99.9"
 
 
 def decimal(value: float) -> str:
-    """A count or a number of seconds, with one decimal."""
-    return f"{round(value, 1) + 0.0:.1f}" if abs(value) < WHOLE_FROM else f"{value:.0f}"  # no -0.0
+    """A count or a number of seconds, with one decimal while it is small."""
+    text = _rounded(value, 1)
+    return text if abs(float(text)) < WHOLE_FROM else _rounded(value, 0)
+
+
+def _rounded(value: float, digits: int) -> str:
+    """Rounded as in school: a half goes away from zero. No -0."""
+    step = Decimal(1).scaleb(-digits)
+    return f"{Decimal(repr(float(value))).quantize(step, ROUND_HALF_UP) + Decimal(0):.{digits}f}".replace("-0.0", "0.0")
 
 
 def figure(value: float, measure: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from llm3.experiments import Experiment, ExperimentRecord
+from llm3.experiments import ExperimentRecord
 from llm3.results.cells import Cell
 from llm3.results.differences import common_problems
 from llm3.results.measures import without_model
@@ -14,9 +14,11 @@ from llm3.results.table import one_line
 ENDINGS = {"crashed": "crashed", "error": "ended in an error"}
 
 
-def remarks(experiment: Experiment, cells: Sequence[Cell]) -> Iterator[str]:
+def remarks(record: ExperimentRecord, cells: Sequence[Cell]) -> Iterator[str]:
     """Runs that are not in the figures, and figures that are not what they seem."""
-    cells = [cell for cell in cells if cell.problem is not None]
+    begun = {key.method for key in record.runs}
+    waiting = [repr(one_line(m.name)) for m in record.experiment.methods if m.name not in begun]
+    cells = [cell for cell in cells if cell.problem is not None and cell.method in begun]
     for status, ended in ENDINGS.items():
         for cell in cells:
             runs = [run for run in cell.ended if run.status == status]
@@ -29,6 +31,13 @@ def remarks(experiment: Experiment, cells: Sequence[Cell]) -> Iterator[str]:
     for cell in cells:
         if cell.missing:
             yield f"{plural(cell.missing, 'run')} of {_place(cell)} {'is' if cell.missing == 1 else 'are'} missing."
+    if waiting:
+        yield f"No run of {', '.join(waiting)} has ended."
+    if record.strangers:
+        yield f"{plural(record.strangers, 'line')} of runs.jsonl tell of runs that the experiment does not have."
+    for versions in record.earlier:
+        told = ", ".join(f"{one_line(name)} {one_line(version)}" for name, version in sorted(versions.items()))
+        yield f"Some runs were made with other versions: {told}."
     for cell in cells:
         limited = sum(run.time_limited for run in cell.ended)
         if limited:
@@ -36,18 +45,26 @@ def remarks(experiment: Experiment, cells: Sequence[Cell]) -> Iterator[str]:
                 f"{plural(limited, 'run')} of {_place(cell)} met a limit of wall-clock time inside of a query, and may "
                 "end otherwise when run again."
             )
-    methods = {m.name: [r for c in cells if c.method == m.name for r in c.ended] for m in experiment.methods}
-    alone = [repr(one_line(name)) for name, runs in methods.items() if runs and without_model(runs)]
+    runs_of = {name: [run for cell in cells if cell.method == name for run in cell.ended] for name in begun}
+    names = [method.name for method in record.experiment.methods if method.name in begun]
+    alone = [repr(one_line(name)) for name in names if without_model(runs_of[name])]
     if alone:
-        yield f"No language model answered in {', '.join(alone)}: #LM counts iterations there."
+        yield f"No language model answered in {', '.join(alone)}; #LM counts what stood in for one, if anything did."
 
 
 def remarks_between(later: ExperimentRecord, first: ExperimentRecord) -> Iterator[str]:
     """Why two experiments may differ, or cannot be compared."""
-    for name in sorted(later.versions.keys() | first.versions.keys()):
-        before, after = (record.versions.get(name, "none") for record in (first, later))
+    for name in sorted(later.versions.keys() & first.versions.keys()):
+        before, after = (record.versions[name] for record in (first, later))
         if before != after:
             yield f"Other versions: {one_line(name)} is {one_line(after)} and was {one_line(before)}."
+    settings = {method.name: method.settings for method in first.experiment.methods}
+    for method in later.experiment.methods:
+        then, now = settings.get(method.name, method.settings), method.settings
+        for name in sorted({*then, *now}):
+            if then.get(name) != now.get(name):
+                told = (one_line(str(there.get(name, "left out"))) for there in (now, then))
+                yield f"Other settings of {one_line(method.name)}: {name} is {' and was '.join(told)}."
     names = {problem.name for problem in first.experiment.problems}
     alike = common_problems(later.experiment, first.experiment)
     for problem in later.experiment.problems:

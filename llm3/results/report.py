@@ -36,7 +36,9 @@ def report(summaries: Sequence[Summary], seconds: bool = True) -> Iterator[Secti
 def _content(summary: Summary, seconds: bool) -> Iterator[Table | str]:
     cells = {(cell.method, cell.problem): cell for cell in summary.cells}
     yield from layout_tables(summary.record.experiment, cells, seconds)
-    yield detail_table(summary.cells, seconds)
-    if summary.differences:
-        yield difference_table("Paired differences between the methods", summary.differences)
-    yield from remarks(summary.record.experiment, summary.cells)
+    begun = {key.method for key in summary.record.runs}
+    yield detail_table([cell for cell in summary.cells if cell.method in begun], seconds)
+    differences = [difference for difference in summary.differences if difference.method in begun]
+    if differences:
+        yield difference_table("Paired differences between the methods", differences)
+    yield from remarks(summary.record, summary.cells)

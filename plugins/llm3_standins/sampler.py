@@ -8,10 +8,8 @@ import numpy as np
 
 from llm3 import BackendSettings, LLMBackend
 from llm3.errors import MissingCapability
-from llm3.types import Action, Completion, Request
-
-DECIMALS = 4
-"""Parameters are drawn to 0.1 mm and 1e-4 rad, the grid of states."""
+from llm3.interfaces import drawn, sampling_ranges
+from llm3.types import Completion, Request
 
 
 class RandomBackend(LLMBackend):
@@ -49,13 +47,8 @@ class RandomBackend(LLMBackend):
         """The sequence with fresh parameters."""
         rng = np.random.default_rng(request.seed)
         schemas = {schema.name: schema for schema in request.context.actions}
-        plan: list[str] = []
-        for sketch in self._skeleton:
-            params: dict[str, float] = {}
-            for parameter in schemas[sketch.name].parameters:
-                key = (sketch.name, sketch.objects, parameter.name)
-                low, high = self._regions.get(key, (parameter.low, parameter.high))
-                drawn = round(float(rng.uniform(low, high)), DECIMALS)
-                params[parameter.name] = min(max(drawn, low), high)  # rounding may step over a bound
-            plan.append(str(Action(sketch.name, sketch.objects, params)))
+        plan = [
+            str(drawn(sketch, sampling_ranges(schemas[sketch.name], sketch.objects, self._regions), rng))
+            for sketch in self._skeleton
+        ]
         return Completion(json.dumps({"Reasoning": "The parameters are drawn at random.", "Full Plan": plan}))

@@ -21,7 +21,7 @@ def replies_of(folder: Path) -> dict[tuple[Message, ...], str]:
     found = read_experiment_folder(folder)
     known: dict[tuple[Message, ...], str] = {}
     for key in found.runs:
-        for exchange in read_exchanges(folder / record_folder(found.experiment, key)):
+        for exchange in read_exchanges(folder / record_folder(key)):
             assert exchange.reply
             known[exchange.request.messages] = exchange.reply.text
     return known
@@ -84,12 +84,27 @@ def test_the_smoke_experiment_runs_every_kind_of_method(tmp_path):
     assert all(line.solved for line in runs if line.key.method.startswith("offline"))
 
 
+def test_what_a_domain_cannot_make_is_told_before_anything_is_done(tmp_path):
+    (tmp_path / "high.toml").write_text(
+        'name = "high"\n[[problems]]\ndomain = "boxpack"\nsetting = "easy-small"\noptions = {walls = "9"}\n'
+        '[[methods]]\nname = "rules"\nllm = "offline"\n',
+        encoding="utf-8",
+    )
+    for more in ("", " --dry-run"):
+        ended = run(llm3(f"experiment high.toml{more}"), tmp_path, environment())
+        assert ended.err == "llm3: error: option 'walls' must be a height from 0 to 0.2 m, not '9'.\n"
+        assert ended.code == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["high.toml"]
+
+
 def test_one_row_of_table_2_has_its_published_figures_beside_it(tmp_path):
     words = ["--method=Random Samples", "--set=methods.Random Samples.max_llm_calls=2"]
     begun = llm3("experiment table2 --attempts 1 --quiet --no-records --out row")
     ended = run([*begun, *words], tmp_path, environment())
     assert (ended.code, ended.err) == (0, "")
-    (ours,) = [row for row in ended.out.splitlines() if row.startswith("Random Samples")][:1]
-    (paper,) = [row for row in ended.out.splitlines() if row.startswith("- the paper")]
+    rows = ended.out.splitlines()
+    first = next(number for number, row in enumerate(rows) if row.startswith("Random Samples"))
+    ours, paper = rows[first : first + 2]
+    assert paper.startswith("- the paper")
     assert ours.split()[-3:-2] == ["2.0"]
     assert paper.split()[-3:] == ["109.6", "663.1", "-"]

@@ -82,10 +82,10 @@ def carry_out(
     """Run what is missing in a folder; the lines that were added."""
     seen: list[RunLine] = []
     work = Worker(Registry.discover()).work  # of its own, so that it knows the plugins of this test
-    with ExperimentWriter(folder, asked, {"llm3": "1"}, options.pop("extend", False)) as writer:
-        jobs = missing_jobs(asked, writer.ended, retry)
+    part = options.pop("part", asked)
+    with ExperimentWriter(folder, asked, {"llm3": "1"}) as writer:
+        jobs = missing_jobs(part, writer.ended, retry)
         run_experiment(
-            asked,
             jobs,
             writer,
             executor or Here(),

@@ -6,6 +6,7 @@ import pytest
 from experiment_files import TOML, lines_of, without_times
 
 from llm3.experiments import read_experiment_folder
+from llm3.registry import Registry
 
 
 @pytest.fixture(autouse=True)
@@ -33,9 +34,10 @@ def test_what_is_done_is_not_done_again(command):
     again = command("experiment walks.toml --out out --attempts 1")
     assert "2 of 2 runs ended before in out" in again.err
     assert Path("out/runs.jsonl").read_bytes() == before
-    assert command("experiment walks.toml --out out --attempts 2 --quiet").code == 2
-    assert command("experiment walks.toml --out out --attempts 2 --quiet --extend").code == 0
+    assert command("experiment walks.toml --out out --attempts 2 --quiet").code == 0
     assert len(lines_of(Path("out"))) == 4
+    command("experiment walks.toml --out out --attempts 3 --quiet --method random")
+    assert len(lines_of(Path("out"))) == 5
 
 
 def test_two_workers_do_what_one_does(command):
@@ -89,13 +91,32 @@ def test_a_run_that_failed_is_told_and_done_again_when_asked(command):
     ended = command(line)
     assert ended.code == 1
     assert "scripted / default / 0: error: the script has run out after 0 replies." in ended.err
-    assert command(f"{line} --quiet").code == 1
-    Path("replies.json").write_text("[\"[\\\"go([], {'x': 0.2, 'y': 0.5})\\\"]\"]")
-    again = command(f"{line} --quiet --retry --set methods.scripted.max_llm_calls=20")
-    assert again.code == 2  # other settings than before
-    Path("replies.json").write_text('["x"]')
+    again = "1 of them ended with an error or a crash; with --retry they are done again"
+    assert ended.err.splitlines()[-1] == again
+    once_more = command(line)
+    assert (once_more.code, once_more.err.splitlines()[-1]) == (1, again)
+    assert len(lines_of(Path("out"))) == 3
     assert command(f"{line} --quiet --retry").code == 1
     assert len(lines_of(Path("out"))) == 4
+
+
+def test_a_file_that_a_backend_reads_is_part_of_what_was_asked(command):
+    Path("replies.json").write_text("[]")
+    Path("walks.toml").write_text(TOML + '\n[[methods]]\nname = "scripted"\nllm = "scripted:replies.json"\n')
+    command("experiment walks.toml --out out --attempts 1 --quiet")
+    Path("replies.json").write_text('["x"]')
+    changed = command("experiment walks.toml --out out --attempts 1 --quiet")
+    assert changed.code == 2
+    assert changed.err.startswith("llm3: error: 'out' was made with file replies.json ")
+
+
+def test_a_part_is_run_and_the_tables_are_those_of_the_whole(command):
+    ended = command("experiment walks.toml --out out --quiet --method random")
+    rows = [line.split("  ")[0] for line in ended.out.partition("Every method")[0].splitlines()]
+    assert ["random" in rows, "one random try" in rows] == [True, True]
+    assert "No run of 'one random try' has ended." in ended.out
+    assert command("experiment walks.toml --out out --quiet").code == 0
+    assert len(lines_of(Path("out"))) == 6
 
 
 def test_everything_in_the_file_can_be_set_on_the_command_line(command):
@@ -113,12 +134,13 @@ def test_everything_in_the_file_can_be_set_on_the_command_line(command):
         "--set=title=Other walks",
     )
     found = read_experiment_folder(Path("out")).experiment
-    assert (found.title, found.seeds, [method.name for method in found.methods]) == ("Other walks", (5, 6), ["random"])
+    assert (found.title, found.seeds) == ("Other walks", (5, 6))
+    assert {line["key"]["method"] for line in lines_of(Path("out"))} == {"random"}
     assert found.methods[0].settings["max_llm_calls"] == 2
 
 
 WRONG = {
-    "nowhere": "unknown experiment 'nowhere'. Known: smoke, table1, table2.",
+    "nowhere": f"unknown experiment 'nowhere'. Known: {', '.join(Registry.discover().names('experiment'))}.",
     "nowhere.toml": "nowhere.toml: No such file or directory",
     "walks.toml --model gpt": "every method of 'walks' has a backend of its own: leave out --model.",
     "walks.toml --llm offline": "every method of 'walks' has a backend of its own: leave out --llm.",
@@ -135,6 +157,7 @@ WRONG = {
     "walks.toml --set x": "argument --set: expected FIELD=VALUE, not 'x'. See 'llm3 experiment --help'.",
     "walks.toml --set planner=rrt": "walks.toml: unknown field `planner`, expected name, problems, methods, title, "
     "attempts, first_seed, run, layouts, published - at `$`",
+    "walks.toml --attempts ten": "walks.toml: Expected `int`, got `str` - at `$.attempts`",
     "walks.toml --set run.planner=rrt": "unknown planner 'rrt'; did you mean 'birrt'? Known: birrt, ompl-bitstar, "
     "ompl-lbkpiece, ompl-rrtconnect.",
 }

@@ -109,7 +109,7 @@ WRONG = {
     "no method": ({"methods": []}, "walks.toml: an experiment needs at least one method"),
     "no problem": ({"problems": []}, "walks.toml: an experiment needs at least one problem"),
     "no attempt": ({"attempts": 0}, "walks.toml: attempts must be from 1 to 100000, not 0"),
-    "a negative seed": ({"first_seed": -1}, "walks.toml: first_seed must be 0 or more, not -1"),
+    "a negative seed": ({"first_seed": -1}, "walks.toml: first_seed must be from 0 to 9223372036854675807, not -1"),
     "attempts as text": ({"attempts": "ten"}, "walks.toml: Expected `int`, got `str` - at `$.attempts`"),
     "no name": ({"methods": [{"llm": "random"}]}, "walks.toml: method 1 needs a name"),
     "a name twice": ({"methods": [{"name": "a"}, {"name": "a"}]}, "walks.toml: the method 'a' is there twice"),
@@ -123,9 +123,37 @@ WRONG = {
         {"published": [{"source": "", "measures": ["success"], "figures": {"random": {"default": [1, 2]}}}]},
         "walks.toml: the figures of 'random' on 'default' must be 1 numbers, success, not 2 - at `$.published[0]`",
     ),
+    "a number without end": (
+        {"run": {"max_seconds": float("inf")}},
+        "walks.toml: run.max_seconds must be a finite number, not inf",
+    ),
+    "a budget of nothing": (
+        {"methods": [{"name": "a", "max_llm_calls": 0}]},
+        "walks.toml: the number of model calls must be at least 1, not 0.",
+    ),
+    "a name that is a path": (
+        {"name": "../walks"},
+        "walks.toml: the name of an experiment is made of letters, digits and _.-, not '../walks'",
+    ),
+    "a name that cannot be printed": (
+        {"methods": [{"name": "a\x1b"}]},
+        "walks.toml: the name of a method is a printable text of 1 to 200 characters, not 'a\\x1b'",
+    ),
+    "a seed beyond all": (
+        {"first_seed": 2**63},
+        "walks.toml: first_seed must be from 0 to 9223372036854675807, not 9223372036854775808",
+    ),
+    "a column of nothing": (
+        {
+            "layouts": [
+                {"title": "T", "measures": [], "groups": [{"title": "", "columns": [{"title": "", "problem": "x"}]}]}
+            ]
+        },
+        "walks.toml: layout 'T' has a column of 'x', which is none of the problems: default",
+    ),
     "a value of another type": (
         {"methods": [{"name": "a", "trace_size": "five"}]},
-        "method 'a': Expected `int`, got `str` - at `$.trace_size`",
+        "walks.toml: method 'a': Expected `int`, got `str` - at `$.trace_size`",
     ),
 }
 
@@ -138,14 +166,14 @@ def test_what_is_wrong_with_a_file_is_told_in_a_line(changes, sentence):
 
 
 def test_a_field_that_no_run_has_is_told_with_those_that_come_close():
-    with pytest.raises(UsageError) as caught:
+    with pytest.raises(InputError) as caught:
         experiment(methods=[{"name": "a", "max_llm_call": 5}])
     assert str(caught.value).startswith(
-        "unknown field 'max_llm_call' of method 'a' in walks.toml; did you mean 'max_llm_calls'"
+        "walks.toml: unknown field 'max_llm_call' of method 'a'; did you mean 'max_llm_calls'"
     )
-    with pytest.raises(UsageError) as caught:
+    with pytest.raises(InputError) as caught:
         experiment(run={"seed": 5})
-    assert str(caught.value).startswith("unknown field 'seed' of [run] in walks.toml. Known: feedback, llm, ")
+    assert str(caught.value).startswith("walks.toml: unknown field 'seed' of [run]. Known: feedback, llm, ")
 
 
 def test_what_is_no_toml_is_told_with_its_place():

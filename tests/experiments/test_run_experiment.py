@@ -63,18 +63,26 @@ def test_a_server_that_is_gone_ends_the_run_and_a_lasting_silence_the_experiment
     with pytest.raises(LLM3Error) as caught:
         carry_out(HERE, experiment(methods=[SCRIPTED], attempts=30))
     said = str(caught.value)
-    assert said.startswith("the last 10 runs ended with the same error: the script has run out after 0 replies.")
+    assert said.startswith(
+        "the last 10 runs of 'scripted' ended with the same error: the script has run out after 0 replies."
+    )
     assert [line["status"] for line in lines_of(HERE)] == ["error"] * 10
     assert not any(line["traceback"] for line in lines_of(HERE))
 
 
-def test_errors_with_other_runs_between_them_end_nothing():
+def test_other_methods_between_them_make_the_silence_no_shorter():
     Path("replies.json").write_text("[]")
-    carry_out(HERE, experiment(methods=[SCRIPTED, RANDOM], attempts=12))
-    assert (
-        sorted("error" if line["status"] == "error" else "fine" for line in lines_of(HERE))
-        == ["error"] * 12 + ["fine"] * 12
-    )
+    with pytest.raises(LLM3Error):
+        carry_out(HERE, experiment(methods=[SCRIPTED, RANDOM], attempts=30))
+    methods = [line["key"]["method"] for line in lines_of(HERE) if line["status"] == "error"]
+    assert methods == ["scripted"] * 10
+
+
+def test_every_run_that_ended_has_its_line_when_the_experiment_is_ended():
+    Path("replies.json").write_text("[]")
+    with pytest.raises(LLM3Error):
+        carry_out(HERE, experiment(methods=[SCRIPTED], attempts=40), slots=20)
+    assert len(lines_of(HERE)) == 20  # which had all ended when the tenth of them was looked at
 
 
 def test_a_worker_that_dies_takes_its_run_with_it_and_no_other():

@@ -51,7 +51,7 @@ WORK = {
 """Work, and what comes of it."""
 
 
-@settings(max_examples=3)
+@settings(max_examples=2)
 @given(st.lists(st.sampled_from(list(WORK)), max_size=4))
 @example(list(WORK))
 def test_each_answers_for_its_own_work_whatever_becomes_of_others(workers, chosen):
@@ -211,6 +211,7 @@ def test_idle_and_busy_workers_end_with_their_parent(tmp_path, busy, sent):
     assert parent.returncode == -sent
 
 
+@pytest.mark.slow
 def test_ctrl_c_is_the_parents_business(tmp_path):
     ignoring = (
         "import signal\n"

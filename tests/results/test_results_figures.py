@@ -46,7 +46,7 @@ def recorded(command, install, cwd):
         methods = (Method("_one", "one", {}), Method("b_$", "b", {}))
         made = Experiment("made-up", "", (0, 1), (ProblemFamily("wide $x$", domain, "wide"),), methods)
         folder = write(cwd / "done", made, [run("_one", "wide $x$", 1)])
-        where = folder / record_folder(made, RunKey("_one", "wide $x$", 1))
+        where = folder / record_folder(RunKey("_one", "wide $x$", 1))
         where.parent.mkdir(parents=True)
         assert command("--domain", domain, "--seed", "1", "--quiet", "--out", str(where)).code == 0
         return folder

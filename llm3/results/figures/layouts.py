@@ -50,7 +50,7 @@ def _recorded(record: ExperimentRecord) -> Mapping[RunKey, Path]:
     experiment = record.experiment
     for seed in experiment.seeds:
         keys = [RunKey(m.name, p.name, seed) for p in experiment.problems for m in experiment.methods]
-        folders = {key: record.folder / record_folder(experiment, key) for key in keys}
+        folders = {key: record.folder / record_folder(key) for key in keys}
         if any((where / "run.json").exists() for where in folders.values()):
             return {key: where for key, where in folders.items() if (where / "run.json").exists()}
     return {}

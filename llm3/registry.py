@@ -246,7 +246,7 @@ def _made(registration: Registration, arguments: tuple[Any, ...]) -> Any:
 
 
 def _distribution(entry_point: metadata.EntryPoint) -> str:
-    return entry_point.dist.name if entry_point.dist else ""
+    return (entry_point.dist.name or "") if entry_point.dist else ""  # its metadata may be gone, as while pip works
 
 
 def _origin(entry_point: metadata.EntryPoint) -> str:

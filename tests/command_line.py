@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+
+from project import tomllib
 
 CORRIDOR = Path(__file__).parent / "third_party" / "llm3_corridor"
 FOREIGN = (
@@ -56,11 +59,23 @@ def run(command: list[str], cwd: Path, env: Mapping[str, str]) -> Ended:
 def install_plugin(folder: Path, name: str, source: str) -> None:
     """Put a one-module distribution into a folder: enough for an entry point to be found there."""
     (folder / f"{name}.py").write_text(source, encoding="utf-8")
-    info = folder / f"{name}-1.0.dist-info"
+    _install_metadata(folder, name, "1.0", name.removeprefix("llm3_"), name)
+
+
+def install_package(folder: Path, package: Path) -> None:
+    """Put what is in the folder of a package, with a pyproject.toml, into a folder, about as pip does."""
+    project = tomllib.loads((package / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    ((entry_point, module),) = project["entry-points"]["llm3"].items()
+    name = module.partition(".")[0]
+    shutil.copytree(package / name, folder / name)
+    _install_metadata(folder, project["name"], project["version"], entry_point, module)
+
+
+def _install_metadata(folder: Path, name: str, version: str, entry_point: str, module: str) -> None:
+    info = folder / f"{name.replace('-', '_')}-{version}.dist-info"
     info.mkdir()
-    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1.0\n", encoding="utf-8")
-    entry_point = name.removeprefix("llm3_")
-    (info / "entry_points.txt").write_text(f"[llm3]\n{entry_point} = {name}\n", encoding="utf-8")
+    (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n", encoding="utf-8")
+    (info / "entry_points.txt").write_text(f"[llm3]\n{entry_point} = {module}\n", encoding="utf-8")
 
 
 def install_corridor(folder: Path) -> None:

@@ -27,6 +27,8 @@ COMMANDS = {
     "results": "print the tables of experiments, and draw their figures",
     "models": "show where models can be had, and which keys are set",
     "doctor": "make one tiny call to a model, and say what is wrong",
+    "check": "look for faults in a plugin, and say what may be the cause",
+    "new": "write a package to begin with: a plugin that works, with its tests",
     "list": "show every plugin, where it comes from, and what failed to load",
 }
 INTERRUPTED, TERMINATED = 130, 143
@@ -69,7 +71,7 @@ def build_parser(command: str) -> CommandParser:
     module = importlib.import_module(f"llm3.cli.{command}_command")
     epilog = None
     if command == "run":
-        lines = "".join(f"  llm3 {name:<10}{text}\n" for name, text in COMMANDS.items())
+        lines = "".join(f"  llm3 {name:<12}{text}\n" for name, text in COMMANDS.items())
         epilog = f"commands:\n{lines}\n'llm3 COMMAND --help' tells more of each."
     parser = CommandParser(
         prog="llm3" if command == "run" else f"llm3 {command}",

@@ -10,9 +10,8 @@ from pathlib import Path
 import pytest
 from docs_pages import DOCS, Block, blocks, page
 
-from llm3 import Prompt, Registry, Strategy
+from llm3 import Registry, Strategy
 from llm3.cli.main import main
-from llm3.types import Context
 
 
 def options(block: Block) -> dict[str, str]:
@@ -81,11 +80,11 @@ def test_the_code_on_the_python_page_runs_and_prints_what_it_says(corridor, caps
 
 @pytest.fixture
 def my_package(tmp_path, monkeypatch):
-    """The package that the examples of the hooks page speak of, with the page's template in it."""
+    """The package that the examples speak of, with the template of the page on strategies in it."""
     folder = tmp_path / "my_package"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
-    (template,) = blocks(page("hooks"), "jinja")
+    (template,) = blocks(page("own-strategy"), "jinja")
     (folder / "brief.j2").write_text(template.text)
     monkeypatch.syspath_prepend(tmp_path)
     yield folder
@@ -114,8 +113,16 @@ def test_the_feedback_example_is_a_plugin_once_its_package_is_there(my_package):
     sys.modules.pop("my_package.feedback")
 
 
-def test_the_template_of_the_hooks_page_renders(my_package):
-    system, user = Prompt(Strategy("my_package", "brief.j2")).render(Context("Do it.", (), (), ()))
-    assert (system.role, user.role) == ("system", "user")
-    assert "Do it." in user.content
-    assert "\nBe brief.\n" in user.content
+def test_the_code_on_the_page_on_strategies_runs(my_package):
+    namespace: dict[str, object] = {}
+    for block in blocks(page("own-strategy"), "python"):
+        exec(compile("\n" * block.line + block.text, "docs/own-strategy.md", "exec"), namespace)
+    assert "Do it." in namespace["user"].content
+
+
+@pytest.mark.parametrize("name", ["own-planner", "own-feedback", "own-model"])
+def test_the_code_of_a_tutorial_runs(corridor, name):
+    namespace: dict[str, object] = {}
+    for block in blocks(page(name), "python"):
+        exec(compile("\n" * block.line + block.text, f"docs/{name}.md", "exec"), namespace)
+    assert namespace["result"].solved

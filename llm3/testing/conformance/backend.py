@@ -1,0 +1,146 @@
+"""The check of a model backend."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from llm3.errors import BackendError
+from llm3.interfaces import LLMBackend
+from llm3.jsonio import dumps, loads
+from llm3.parsing import reply_schema
+from llm3.testing.conformance.attempts import SKELETON, context, trace
+from llm3.testing.conformance.complaint import Complaint, Report
+from llm3.testing.conformance.inspection import Fault, Inspection
+from llm3.testing.scripted import ScriptedLLM
+from llm3.types import Completion, Context, Message, Request, Stats
+
+_COUNTED = {f.name for f in Stats.__dataclass_fields__.values()} - {"seconds"}
+SOLVERS = ("llm_calls", "motion_calls", "reused_actions", "unreadable_replies")
+"""What the solver counts."""
+
+
+def _request(seed: int, of: Context) -> Request:
+    """A question such as the loop asks; a model may answer it with a short text."""
+    messages = (
+        Message("system", "You plan for a robot."),
+        Message("user", 'Answer with this JSON object and nothing else: {"Reasoning": "", "Full Plan": []}'),
+    )
+    return Request(messages, of, seed, reply_schema(of.actions, of.objects, of.skeleton), 60.0)
+
+
+REQUESTS = (_request(1, context(skeleton=SKELETON)), _request(2, context(trace(), SKELETON)))
+
+
+class Answering:
+    """A backend at work."""
+
+    def __init__(self, backend: LLMBackend, inspection: Inspection) -> None:
+        self.backend, self._inspection = backend, inspection
+        self._answers: list[Completion] | None = None
+
+    def completed(self, request: Request) -> Completion | None:
+        """The answer; None, and a remark, if there is none to be had."""
+        try:
+            return self.backend.complete(request)
+        except BackendError as error:
+            self._inspection.remark(f"It gave no answer, so that could not be looked at: {error}")
+            return None
+
+    @property
+    def answers(self) -> list[Completion]:
+        """To each request, asked once: answers may cost something."""
+        if self._answers is None:
+            self._answers = []
+            found = [self.completed(request) for request in REQUESTS]
+            self._answers = [answer for answer in found if answer is not None]
+        return self._answers
+
+
+def a_backend_says_what_it_is(answering: Answering) -> Iterator[Fault]:
+    """is_language_model is a truth value, notice is a line, and one that is no language model has one."""
+    backend = answering.backend
+    if not isinstance(backend.is_language_model, bool):
+        yield Fault(
+            f"is_language_model is {backend.is_language_model!r}.", "It is a property that answers True or False."
+        )
+    for name in ("notice", "last_words"):
+        line = getattr(backend, name)
+        if not isinstance(line, str) or "\n" in line:
+            yield Fault(
+                f"{name} must be one line of text, not {line!r}.", "It is a property, empty for nothing to say."
+            )
+    if backend.is_language_model is False and not backend.notice:
+        yield Fault(
+            "the backend is no language model, and its notice does not say so.",
+            "Users and records must see what wrote the replies: fill `notice`.",
+        )
+    if not isinstance(backend.recorded, Mapping):
+        yield Fault(f"recorded must be a mapping, not {backend.recorded!r}.", "It names fields of a RunConfig.")
+
+
+def requests_are_answered(answering: Answering) -> Iterator[Fault]:
+    """Messages in, Completion out, whose text is a text; no other error than a BackendError."""
+    for answer in answering.answers:
+        if not isinstance(answer, Completion):
+            yield Fault(f"complete answers {answer!r:.80}.", "It answers Completion(text), and not the text alone.")
+        elif loads(dumps(answer), Completion, "the completion") != answer:
+            yield Fault("a completion does not survive being written as JSON.", "Its fields are plain texts and Stats.")
+
+
+def tokens_are_counted_and_calls_are_not(answering: Answering) -> Iterator[Fault]:
+    """What a completion cost is not negative, and holds nothing that the solver counts."""
+    for answer in answering.answers:
+        if not isinstance(answer, Completion):
+            continue
+        for name in sorted(_COUNTED):
+            number = getattr(answer.stats, name)
+            if not isinstance(number, int) or number < 0:
+                yield Fault(
+                    f"the stats of a completion have {name} = {number!r}.", "Counts are whole numbers from 0 on."
+                )
+            elif number and name in SOLVERS:
+                yield Fault(
+                    f"the stats of a completion have {name} = {number}.",
+                    "The solver counts calls: leave them out of Completion.stats, or they are counted twice.",
+                )
+
+
+def equal_requests_get_equal_answers(answering: Answering) -> Iterator[Fault]:
+    """What is no language model answers equal requests alike, whatever was asked in between."""
+    script = isinstance(answering.backend, ScriptedLLM)  # it answers in order, whatever is asked
+    if answering.backend.is_language_model or script or len(answering.answers) < len(REQUESTS):
+        return
+    again = answering.completed(REQUESTS[0])
+    if again is not None and again.text != answering.answers[0].text:
+        yield Fault(
+            f"two equal requests get {answering.answers[0].text!r:.60} and {again.text!r:.60}.",
+            "Draw from np.random.default_rng(request.seed) and from nothing else.",
+        )
+
+
+def closing_it_twice_does_no_harm(answering: Answering) -> Iterator[Fault]:
+    """A closed backend can be closed again."""
+    answering.backend.close()
+    answering.backend.close()
+    yield from ()
+
+
+RULES = (
+    a_backend_says_what_it_is,
+    requests_are_answered,
+    tokens_are_counted_and_calls_are_not,
+    equal_requests_get_equal_answers,
+    closing_it_twice_does_no_harm,
+)
+
+
+def check_backend(backend: LLMBackend) -> tuple[Complaint, ...]:
+    """Look for faults in a model backend, which is asked two or three tiny questions, and then closed."""
+    return examine_backend(backend).complaints
+
+
+def examine_backend(backend: LLMBackend) -> Report:
+    """Like :func:`check_backend`, with the remarks and with what was looked at."""
+    inspection = Inspection()
+    inspection.apply(RULES, Answering(backend, inspection))
+    return inspection.report

@@ -1,0 +1,140 @@
+"""Rules for what a domain may offer besides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from llm3.interfaces import PlanVerifier
+from llm3.parsing import parse_reply
+from llm3.solve import context_of
+from llm3.testing.conformance.inspection import Fault
+from llm3.testing.conformance.purity_rules import departures
+from llm3.testing.conformance.world import World
+from llm3.types import Proposal, Rejected, Shape, Sketch, Verification
+
+
+def the_skeleton_is_made_of_known_actions(world: World) -> Iterator[Fault]:
+    """Each sketch names an action of the schemas, with as many objects, which there are."""
+    schemas = {schema.name: schema for schema in world.env.schemas}
+    for sketch in world.skeleton:
+        if not isinstance(sketch, Sketch):
+            yield Fault(f"the skeleton holds {sketch!r}.", "It is a tuple of llm3.types.Sketch.")
+            continue
+        schema = schemas.get(sketch.name)
+        unknown = [name for name in sketch.objects if name not in world.env.objects]
+        if schema is None or len(schema.objects) != len(sketch.objects) or unknown:
+            known = ", ".join(f"{s.name}({', '.join(s.objects)})" for s in schemas.values())
+            yield Fault(
+                f"the skeleton holds {sketch}, which is no action of this world.",
+                f"Actions are {known}, and objects {', '.join(world.env.objects) or 'none'}.",
+            )
+
+
+def regions_are_parts_of_the_ranges(world: World) -> Iterator[Fault]:
+    """Each region goes by an action, its objects and a parameter that there are, and lies within its range."""
+    found = world.domain.regions(world.instance)
+    if found is not None and not isinstance(found, Mapping):
+        yield Fault(
+            f"regions must answer a dict or None, not {found!r}.", "It goes by (action, its objects, parameter)."
+        )
+        return
+    schemas = {schema.name: schema for schema in world.env.schemas}
+    for key, (low, high) in (found or {}).items():
+        name, objects, parameter = key
+        schema = schemas.get(name)
+        ranges = {p.name: (p.low, p.high) for p in schema.parameters} if schema else {}
+        right = schema is not None and isinstance(objects, tuple) and len(objects) == len(schema.objects)
+        if not right or not set(objects) <= set(world.env.objects) or parameter not in ranges:
+            yield Fault(
+                f"a region goes by {key!r}, which is no parameter of this world.",
+                "Its key is (action name, tuple of its objects, parameter name), such as ('place', ('box',), 'x').",
+            )
+            continue
+        least, most = ranges[parameter]
+        if not least <= low <= high <= most:
+            yield Fault(
+                f"the region of {key!r} is {low:g} to {high:g}, and the parameter's range {least:g} to {most:g}.",
+                "What is drawn outside of the schema's range is refused as an invalid action.",
+            )
+
+
+def the_stand_in_answers_as_a_model_should(world: World) -> Iterator[Fault]:
+    """The stand-in's reply is read without a fault, and the same generator gives the same reply."""
+    stand_in = world.domain.stand_in()
+    if stand_in is None:
+        return
+    context = context_of(world.env, world.start)
+    reply, again = (stand_in(context, np.random.default_rng(0)) for _ in range(2))
+    if reply != again:
+        yield Fault(
+            "the stand-in answers differently with the same generator.", "It must draw from its generator alone."
+        )
+    read = parse_reply(reply, world.env.schemas, world.env.objects)
+    form = 'It writes {"Reasoning": "…", "Full Plan": [str(action), …]} as JSON.'
+    if not isinstance(read, Proposal):
+        yield Fault(f"no plan can be read from the stand-in's reply: {read.detail}.", form)
+        return
+    for item in read.actions:
+        if isinstance(item, Rejected):
+            yield Fault(f"the stand-in proposes {item}: {item.failure.detail}.", form)
+
+
+def the_view_from_above_is_drawn_alike(world: World) -> Iterator[Fault]:
+    """top_view answers shapes of different names, the same for the same state."""
+    states = [world.start, *(trial.transition.state for trial in world.applied[:6] if trial.transition)]
+    for state in states:
+        shapes = world.domain.top_view(world.instance, state)
+        if shapes is None:
+            return
+        if not isinstance(shapes, tuple) or not all(isinstance(shape, Shape) for shape in shapes):
+            yield Fault(f"top_view must answer a tuple of Shape or None, not {shapes!r}.", "A tuple needs a comma.")
+            return
+        names = [shape.name for shape in shapes]
+        if len(set(names)) < len(names):
+            yield Fault(f"top_view draws two things of one name: {', '.join(names)}.", "Figures go by the names.")
+        if shapes != world.domain.top_view(world.instance, state):
+            yield Fault("top_view draws one state in two ways.", "It must look at nothing but its arguments.")
+
+
+def the_verifier_tells_good_plans_from_bad(world: World) -> Iterator[Fault]:
+    """An honest plan that reaches the goal is sound, and one that does nothing is not."""
+    verifier = world.domain.verifier(world.instance, world.options)
+    if verifier is None:
+        return
+    if not isinstance(verifier, PlanVerifier):
+        yield Fault(f"verifier must answer a PlanVerifier or None, not {verifier!r}.", "It answers an instance.")
+        return
+    world.verified = True
+    nothing = verifier.verify(world.start, ())
+    if not isinstance(nothing, Verification) or (nothing.sound and not world.env.goal(world.start).achieved):
+        yield Fault("the verifier finds a plan sound that does nothing.", "It must ask at the end for the goal.")
+    if world.result is not None:
+        for defect in verifier.verify(world.start, world.result.plan).defects:
+            yield Fault(
+                f"the verifier refuses a plan that the world carried out: {defect}.",
+                "The world and the verifier do not agree on what is there, on distances, or on the goal.",
+            )
+            return
+
+
+def a_remade_world_is_like_a_new_one(world: World) -> Iterator[Fault]:
+    """Nothing but the time that it takes tells a world of remake from one of make."""
+    if world.spare is None:
+        return
+    remade = world.domain.remake(world.spare, world.instance, world.options)
+    if remade is None:
+        return
+    world.remade = remade
+    cause = "The old world leaves something behind: what remake takes over must be a cache of the State."
+    yield from departures(world.env, remade, world.trials, cause)
+
+
+RULES = (
+    the_skeleton_is_made_of_known_actions,
+    regions_are_parts_of_the_ranges,
+    the_stand_in_answers_as_a_model_should,
+    the_view_from_above_is_drawn_alike,
+    a_remade_world_is_like_a_new_one,
+)

@@ -1,0 +1,147 @@
+"""Feedback levels with one fault each."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count
+
+from planted import Planted
+
+from llm3 import FeedbackSynthesizer
+from llm3.types import FailureKind, Feedback, Remark
+
+
+class Plain(FeedbackSynthesizer):
+    """Tells of everything, in few words."""
+
+    def synthesize(self, attempt):
+        if attempt.unreadable:
+            return Feedback(attempt.number, summary=f"{attempt.unreadable.detail or 'no plan can be read'}.")
+        actions = attempt.proposal.actions
+        remarks = [self.remark(outcome) for outcome in attempt.outcomes]
+        remarks += [Remark(str(action), "not tried") for action in actions[len(remarks) :]]
+        return Feedback(attempt.number, tuple(remarks), self.summary(attempt))
+
+    def remark(self, outcome):
+        why = [self.why(outcome.failure)] if outcome.failure else []
+        text = " ".join(f"{part}." for part in (*why, *outcome.notes))
+        return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text)
+
+    def why(self, failure):
+        named = f", because of {', '.join(failure.objects)}" if failure.objects else ""
+        return f"{failure.detail or failure.kind.value}{named}"
+
+    def summary(self, attempt):
+        return f"Missing: {'; '.join(attempt.goal.unmet)}."
+
+
+def a_level(**parts):
+    return type("Level", (Plain,), parts)()
+
+
+def told_with(change):
+    """A level whose feedback is changed before it is told."""
+    return a_level(synthesize=lambda self, attempt: change(Plain.synthesize(self, attempt)))
+
+
+def shuffled():
+    calls = count()
+    return told_with(lambda feedback: replace(feedback, summary=f"{feedback.summary} Take {next(calls)}."))
+
+
+FAULTS: dict[str, Planted] = {
+    "words alone": Planted(
+        told_with(lambda feedback: feedback.summary),
+        "every attempt is answered",
+        "a plan that falls short: synthesize answers 'Missing: green_cup is not on oak_shelf; …",
+        "a Feedback, or None",
+    ),
+    "another attempt": Planted(
+        told_with(lambda feedback: replace(feedback, attempt=1)),
+        "every attempt is answered",
+        "a plan that falls short: the feedback is on attempt 1, and it was attempt 3.",
+        "attempt.number",
+    ),
+    "only what was tried": Planted(
+        told_with(lambda f: replace(f, remarks=tuple(r for r in f.remarks if r.verdict != "not tried"))),
+        "each action has one remark",
+        "unreachable, mid-plan: there are 3 remarks on […], and the plan is […].",
+        "not tried",
+    ),
+    "all failed": Planted(
+        told_with(lambda f: replace(f, remarks=tuple(replace(r, verdict="failed") for r in f.remarks))),
+        "each action has one remark",
+        "a plan that falls short: the verdicts are ['failed', 'failed'], and not ['feasible', 'feasible'].",
+        "An action without an outcome was not tried",
+    ),
+    "no names": Planted(
+        a_level(why=lambda self, failure: failure.kind.value),
+        "failures name their objects",
+        "unreachable, alone: 'unreachable.' does not name oak_shelf, which is to blame.",
+        "Failure.objects",
+    ),
+    "forgets a kind": Planted(
+        a_level(
+            why=lambda self, failure: (
+                "no way was found" if failure.kind is FailureKind.NO_PATH else Plain.why(self, failure)
+            )
+        ),
+        "failures name their objects",
+        "no path within budget, alone: 'no way was found.' does not name oak_shelf, which is to blame.",
+        "NO_PATH",
+    ),
+    "unreadable without a reason": Planted(
+        a_level(
+            synthesize=lambda self, attempt: (
+                Feedback(attempt.number, summary="Try again.")
+                if attempt.unreadable
+                else Plain.synthesize(self, attempt)
+            )
+        ),
+        "what is unreadable is told",
+        "unreadable reply: the summary does not say 'no complete plan can be read from the reply'.",
+        "attempt.unreadable.detail",
+    ),
+    "a hole": Planted(
+        a_level(why=lambda self, failure: f"in collision with {failure.objects[0] if failure.objects else None}"),
+        "no text has a hole",
+        "unreachable, without evidence: a text holds 'None': 'in collision with None.'.",
+        "need not have objects",
+    ),
+    "a template": Planted(
+        a_level(summary=lambda self, attempt: "Missing: {unmet}."),
+        "no text has a hole",
+        "a plan that falls short: a text holds '{': 'Missing: {unmet}.'.",
+        "another sentence",
+    ),
+    "trailing blank": Planted(
+        a_level(summary=lambda self, attempt: f"{Plain.summary(self, attempt)} "),
+        "no text has a hole",
+        "a plan that falls short: a text has blanks or stops too many: 'Missing: …. '.",
+        "its own blank",
+    ),
+    "unmet only at times": Planted(
+        a_level(summary=lambda self, attempt: "" if attempt.failure else Plain.summary(self, attempt)),
+        "what is unmet is told or not",
+        "what is unmet of the goal is told of a plan that falls short, and not of unreachable, alone.",
+        "attempt.goal.unmet",
+    ),
+    "no notes": Planted(
+        a_level(remark=lambda self, outcome: Plain.remark(self, replace(outcome, notes=()))),
+        "notes are told",
+        "unreachable, mid-plan: the note 'green_cup slid 12 mm' is not told.",
+        "every feedback",
+    ),
+    "other words each time": Planted(
+        shuffled(),
+        "the same attempt gets the same words",
+        "…: the second feedback is not the first.",
+        "nothing but the attempt",
+    ),
+    "raises without a plan": Planted(
+        a_level(synthesize=lambda self, attempt: Feedback(attempt.number, summary=str(attempt.proposal.actions))),
+        "nothing is raised",
+        "Level.<lambda> raised AttributeError: 'NoneType' object has no attribute 'actions' (broken_feedback.py:…).",
+        "ends a run",
+    ),
+}

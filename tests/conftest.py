@@ -11,7 +11,7 @@ from hypothesis import settings
 from packaging.requirements import Requirement
 from project import ROOT, packages, pyproject
 
-PYBULLET_FOLDERS = ("bullet", "boxpack")
+PYBULLET_FOLDERS = ("blocks", "bullet", "boxpack", "kitchen")
 """Test folders whose names begin so need PyBullet; a single test elsewhere is marked `pybullet`."""
 
 collect_ignore = ["third_party"]  # other people's packages: tests/packaging installs them and runs their tests

@@ -1,40 +1,54 @@
-"""Makes boxpack.png: the end of a solved run of the box-packing task, drawn by PyBullet's software renderer.
+"""Makes the pictures of the domains: the end of a solved run of each, drawn by PyBullet's software renderer.
 
 It needs PyBullet and Pillow, which come with ``pip install '.[docs]'``, and no screen::
 
-    python docs/pictures/make.py
+    python docs/pictures/make.py [NAME ...]
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import sys
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 
 from PIL import Image
 
 from llm3 import Registry
 from llm3.assembly import RunConfig, assemble
 from llm3.types import Pose
-from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.window import CAMERA, color_of
 from llm3_bullet.clients import connect
 from llm3_bullet.model import RobotModel
 from llm3_bullet.robots.panda import panda
 from llm3_bullet.scene import Box
 from llm3_bullet.stage import Stage
+from llm3_bullet.tabletop.env import TabletopEnv
+from llm3_bullet.tabletop.window import CAMERA, color_of
 
-TARGET = Path(__file__).with_name("boxpack.png")
-CONFIG = RunConfig("boxpack", setting="hard-small", seed=0)
+FOLDER = Path(__file__).parent
+RUNS: Mapping[str, RunConfig] = MappingProxyType(
+    {
+        "boxpack": RunConfig("boxpack", setting="hard-small", seed=0),
+        "blocks": RunConfig("blocks", setting="blocks-6", seed=0),
+    }
+)
+"""By the name of the picture."""
 WIDTH, HEIGHT = 800, 600
 OVERSAMPLING = 2  # the renderer does not smooth edges, so a larger picture is made smaller
 
 
-def main() -> None:
+def main(names: Iterable[str]) -> None:
     """Solve, draw and write."""
-    with assemble(Registry.discover(), CONFIG) as run, connect() as client:
+    for name in names:
+        draw(RUNS[name], FOLDER / f"{name}.png")
+
+
+def draw(config: RunConfig, target: Path) -> None:
+    """The picture of one run."""
+    with assemble(Registry.discover(), config) as run, connect() as client:
         plan = run.solve().plan
-        if not plan or not isinstance(run.problem.env, BoxpackEnv):
+        if not plan or not isinstance(run.problem.env, TabletopEnv):
             raise SystemExit("the run is not solved, so there is nothing to draw")
         state, events = plan[-1].state, plan[-1].motion.events
         opening = [event.opening for event in events if event.opening is not None][-1]
@@ -43,7 +57,7 @@ def main() -> None:
         stage.show(boxes, state.configuration, None, opening)
         pixels = stage.picture(WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING)
     picture = Image.fromarray(pixels).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
-    picture.save(TARGET, optimize=True)
+    picture.save(target, optimize=True)
 
 
 def trimmed(boxes: Iterable[Box]) -> list[Box]:
@@ -53,4 +67,4 @@ def trimmed(boxes: Iterable[Box]) -> list[Box]:
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:] or RUNS)

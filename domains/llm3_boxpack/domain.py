@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack, closing
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from llm3.errors import UsageError
-from llm3.interfaces import Domain, Env, Option, Options, PlanVerifier, Regions, StandIn
+from llm3.interfaces import Option, Options, PlanVerifier, Regions, StandIn
 from llm3.types import Shape, Sketch, State
 from llm3_boxpack.actions import PLACE, skeleton
 from llm3_boxpack.instance import BoxpackInstance
 from llm3_boxpack.settings import SETTINGS, generate
+from llm3_bullet.tabletop.domain import ROBOT, TabletopDomain
+
+if TYPE_CHECKING:
+    from llm3_bullet.tabletop.env import TabletopEnv
+    from llm3_bullet.workcell import Workcell
 
 MAX_WALL_HEIGHT = 0.2
 
 
-class BoxPack(Domain):
+class BoxPack(TabletopDomain):
     """Pack four boxes into a basket, with the sizes of the paper's settings."""
 
     name = "boxpack"
@@ -23,7 +27,7 @@ class BoxPack(Domain):
     settings = SETTINGS
     default_setting = "medium-small"
     options = (
-        Option("robot", "panda", "panda, iiwa, or a .json file that describes another one"),
+        ROBOT,
         Option("walls", "0", f"height of the basket's walls in metres, 0 to {MAX_WALL_HEIGHT:g}"),
     )
     instance_type = BoxpackInstance
@@ -32,44 +36,11 @@ class BoxPack(Domain):
         """Start poses drawn from the seed."""
         return generate(setting, seed)
 
-    def self_contained(self, options: Options) -> Options:
-        """With the description of a robot that comes from a file."""
-        from llm3_bullet.robots import in_place
-
-        return {**options, "robot": in_place(options["robot"])}
-
-    def make(self, instance: Any, options: Options) -> Env:
-        """A PyBullet world without a window."""
+    def env(self, instance: Any, workcell: Workcell, options: Options) -> TabletopEnv:
+        """Boxes, a basket and an arm."""
         from llm3_boxpack.env import BoxpackEnv
-        from llm3_bullet.robots import find_robot
-        from llm3_bullet.workcell import Workcell
 
-        wall_height, robot = _wall_height(options["walls"]), find_robot(options["robot"])
-        with ExitStack() as stack:
-            cell = stack.enter_context(closing(Workcell(robot)))
-            env = BoxpackEnv(instance, cell, wall_height)
-            stack.pop_all()  # it is the Env's to close now
-            return env
-
-    def make_in_window(self, instance: Any, options: Options) -> Env | None:
-        """A PyBullet world, with a second one in a window that plays what happens."""
-        from llm3_boxpack.window import WindowEnv
-        from llm3_bullet.clients import connect
-        from llm3_bullet.robots import find_robot
-        from llm3_bullet.workcell import Workcell
-
-        wall_height, robot = _wall_height(options["walls"]), find_robot(options["robot"])
-        client = connect(gui=True)
-        return WindowEnv(instance, Workcell(robot), wall_height, client)
-
-    def remake(self, env: Env, instance: Any, options: Options) -> Env | None:
-        """A world around the same robot, whose simulators go on; None for another robot, or out of a window."""
-        from llm3_boxpack.env import BoxpackEnv
-        from llm3_bullet.robots import find_robot
-
-        if type(env) is not BoxpackEnv:
-            return None
-        return env.remade(instance, find_robot(options["robot"]), _wall_height(options["walls"]))
+        return BoxpackEnv(instance, workcell, _wall_height(options["walls"]))
 
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
         """Pick and place each box in turn."""
@@ -83,6 +54,11 @@ class BoxPack(Domain):
             for box in instance.boxes
             for axis, center, side in zip("xy", basket.center, basket.size, strict=True)
         }
+
+    def self_contained(self, options: Options) -> Options:
+        """With the description of a robot that comes from a file; walls that cannot be are refused before any work."""
+        _wall_height(options["walls"])
+        return super().self_contained(options)
 
     def stand_in(self) -> StandIn:
         """Rules of thumb for packing."""

@@ -9,8 +9,8 @@ import numpy as np
 
 from llm3.jsonio import read_file
 from llm3.types import Goal, MotionProblem
-from llm3_boxpack.env import CLEARANCE
 from llm3_bullet.scene import Scene
+from llm3_bullet.tabletop.tabletop import CLEARANCE
 from llm3_bullet.workcell import Workcell
 
 FILE = Path(__file__).with_name("queries.json")

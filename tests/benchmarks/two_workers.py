@@ -100,7 +100,7 @@ def seconds_of_experiment(experiment: Experiment, count: int) -> float:
         jobs = missing_jobs(experiment, writer.ended)
         began = perf_counter()
         with SpawnedWorkers(count) as workers:
-            run_experiment(experiment, jobs, writer, workers, count, limits={}, watcher=lambda _: None)
+            run_experiment(jobs, writer, workers, count, limits={}, watcher=lambda _: None)
         seconds = perf_counter() - began
         statuses = {line.status for line in writer.ended.values()}
     if not statuses <= {"solved", "not solved"}:

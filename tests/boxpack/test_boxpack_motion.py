@@ -10,11 +10,11 @@ from packing_world import BAR, POST, box, carried_out, pick, place, prepared, pr
 
 from llm3.types import EventKind, Motion, State
 from llm3.types.state import LENGTH_DECIMALS
-from llm3_boxpack.env import CLEARANCE
 from llm3_boxpack.layout import furniture
-from llm3_boxpack.manipulation import DROP
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.scene import Box
+from llm3_bullet.tabletop.manipulation import DROP
+from llm3_bullet.tabletop.tabletop import CLEARANCE
 from llm3_bullet.touchdown import TouchdownSettings
 
 INSTANCE = problem(box("red_box", 0.39, -0.2), box("green_box", 0.39, 0.05, BAR), box("tan_box", 0.39, 0.3, POST))

@@ -36,8 +36,8 @@ def one_after_the_other(configs):
         run = prepare(registry, config).open(spare=spare)
         left = outcome(run)
         spare = run.release()
-        yield left, spare._cell is cell
-        cell = spare._cell
+        yield left, spare.tabletop.workcell is cell
+        cell = spare.tabletop.workcell
     spare.close()
 
 
@@ -125,8 +125,8 @@ def _remaking(domain, stack, walls, tell=lambda _: None):
             if old:
                 old.close()
             env = domain.make(instance, options)
-        checker = env._cell.checker
-        checker.view(env.scene(env.reset())).valid(env._cell.model.home[None])
+        checker = env.tabletop.workcell.checker
+        checker.view(env.scene(env.reset())).valid(env.tabletop.workcell.model.home[None])
         tell(checker.thick_world.boxes.made)
         number += 1
         yield

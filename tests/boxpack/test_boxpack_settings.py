@@ -10,9 +10,9 @@ from packing_world import problem
 
 from llm3.jsonio import dumps, loads, pretty
 from llm3_boxpack.domain import BoxPack
-from llm3_boxpack.grasps import OPENING_MARGIN
 from llm3_boxpack.instance import BoxpackInstance
 from llm3_bullet.robots.panda import panda
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN
 
 SETTINGS = (
     *("easy-small", "easy-medium", "easy-large"),

@@ -8,8 +8,8 @@ from packing_world import BAR, CUBE, after, box, carried_out, pick, place, prepa
 
 from llm3.types import EventKind, Failure, FailureKind
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.grasps import CUP_GAP
 from llm3_bullet.robots import iiwa
+from llm3_bullet.tabletop.grasps import CUP_GAP
 from llm3_bullet.workcell import Workcell
 
 TWO = problem(box("red_box", 0.39, -0.3), box("green_box", 0.39, 0.2, BAR))

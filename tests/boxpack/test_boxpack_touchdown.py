@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from llm3.types import Contact, FailureKind
-from llm3_boxpack.env import CLEARANCE
 from llm3_bullet.scene import Scene
+from llm3_bullet.tabletop.tabletop import CLEARANCE
 from llm3_bullet.touchdown import Touchdown, TouchdownSettings
 from llm3_bullet.touchdown_planner import TouchdownPlanner
 

@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 
 from llm3.types import Action, Motion, Path
-from llm3_boxpack import window
 from llm3_boxpack.domain import BoxPack
-from llm3_boxpack.window import WindowEnv
 from llm3_bullet.clients import connect
-from llm3_bullet.robots import panda
-from llm3_bullet.workcell import Workcell
+from llm3_bullet.tabletop import window
+from llm3_bullet.tabletop.window import WindowEnv
 
 PICK = Action("pick", ("red_box",))
 
@@ -31,7 +29,7 @@ def test_it_gives_the_same_transitions_and_plays_them(instance, monkeypatch):
     monkeypatch.setattr(window, "LAST_LOOK", 0.0)
     waits: list[float] = []
     plain = BoxPack().make(instance, {"robot": "panda", "walls": "0"})
-    shown = WindowEnv(instance, Workcell(panda()), 0.0, connect(), waits.append)
+    shown = WindowEnv(BoxPack().make(instance, {"robot": "panda", "walls": "0"}), connect(), waits.append)
     try:
         state = plain.reset()
         motion = carried_out(plain, state)

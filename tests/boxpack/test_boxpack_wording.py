@@ -12,9 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from llm3.types import Entity, Held, Pose
 from llm3_boxpack.actions import PICK, PLACE
-from llm3_boxpack.grasps import OPENING_MARGIN
 from llm3_boxpack.wording import describe, task_text
 from llm3_bullet.robots import iiwa, panda
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN
 
 TWO = problem(box("red_box", 0.386, -0.4281, CUBE), box("green_box", 0.39, 0.2, BAR, 0.25))
 TASK = """\

@@ -7,6 +7,7 @@ import json
 import pytest
 
 KINDS = ("domain", "strategy", "feedback", "planner", "timer", "backend", "model source", "experiment")
+DOMAINS = "blocks, boxpack, corridor, kitchen, tabletop2d"
 BROKEN = {
     "llm3_broken": (
         "raise RuntimeError('no\\x1b[2J such\\ntorque')",
@@ -68,11 +69,11 @@ def test_a_broken_plugin_is_listed_and_stops_nothing(command, corridor, install,
     assert ended.err.splitlines()[0].startswith("No language model is used: ")
     assert ended.err.splitlines()[1].startswith(f"warning: plugin {plugin} failed to load: {reason}")
 
-    unknown = command("--domain kitchen")
+    unknown = command("--domain garden")
     assert unknown.code == 2
     (line,) = unknown.err.splitlines()
     assert line.startswith(
-        f"llm3: error: unknown domain 'kitchen'. Known: boxpack, corridor. Failed to load: {plugin} ({reason}"
+        f"llm3: error: unknown domain 'garden'. Known: {DOMAINS}. Failed to load: {plugin} ({reason}"
     )
     assert "\x1b" not in listed.out + ended.err + unknown.err
 

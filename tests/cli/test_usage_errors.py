@@ -15,10 +15,11 @@ RUN_FLAGS = (
     "--record, --seed, --setting, --solver, --strategy, --temperature, --timing, --trace-size, --version, -D, -h"
 )
 SED = f"unknown flag '--sed'; did you mean '--seed' or '--solver' or '--record'? Known: {RUN_FLAGS}."
+DOMAINS = "blocks, boxpack, corridor, kitchen, tabletop2d"
 SENTENCES = {
-    "": "no domain: give --domain NAME. Known: boxpack, corridor.",
-    "--domain coridor": "unknown domain 'coridor'; did you mean 'corridor'? Known: boxpack, corridor.",
-    "--domain kitchen": "unknown domain 'kitchen'. Known: boxpack, corridor.",
+    "": f"no domain: give --domain NAME. Known: {DOMAINS}.",
+    "--domain coridor": f"unknown domain 'coridor'; did you mean 'corridor'? Known: {DOMAINS}.",
+    "--domain garden": f"unknown domain 'garden'. Known: {DOMAINS}.",
     "--domain corridor --setting defualt": (
         "unknown setting 'defualt' of domain 'corridor'; did you mean 'default'? Known: default."
     ),
@@ -65,19 +66,19 @@ SENTENCES = {
         "--setting and --instance both choose a problem: give one of them."
     ),
     "lst": (
-        "unknown command 'lst'; did you mean 'list'? Known: doctor, experiment, instance, list, models, prompt, "
-        "results, run, verify."
+        "unknown command 'lst'; did you mean 'list'? Known: check, doctor, experiment, instance, list, models, "
+        "new, prompt, results, run, verify."
     ),
     "--domain corridor list": (
         "unexpected argument 'list'. A command stands first: run, prompt, experiment, instance, verify, results, "
-        "models, doctor, list."
+        "models, doctor, check, new, list."
     ),
     "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
     "prompt --domain corridor --llm http": (
         "unknown flag '--llm'. Known: --debug, --domain, --help, --instance, --json, --seed, --setting, --strategy, "
         "-D, -h."
     ),
-    "prompt": "no domain: give --domain NAME. Known: boxpack, corridor.",
+    "prompt": f"no domain: give --domain NAME. Known: {DOMAINS}.",
     "instance --domain corridor --setting wide": ("unknown setting 'wide' of domain 'corridor'. Known: default."),
 }
 
@@ -90,10 +91,10 @@ def test_one_line_says_what_is_wrong(command, cwd, line, sentence):
 
 
 def test_debug_adds_the_traceback(command):
-    ended = command("--domain kitchen --debug")
+    ended = command("--domain garden --debug")
     assert ended.code == 2
     assert ended.err.startswith("Traceback (most recent call last):\n")
-    assert ended.err.endswith("\nllm3: error: unknown domain 'kitchen'. Known: boxpack, corridor.\n")
+    assert ended.err.endswith(f"\nllm3: error: unknown domain 'garden'. Known: {DOMAINS}.\n")
 
 
 def test_debug_is_heard_when_the_arguments_cannot_be_read(command):
@@ -102,7 +103,7 @@ def test_debug_is_heard_when_the_arguments_cannot_be_read(command):
 
 def test_control_characters_of_the_user_do_not_reach_the_terminal(command):
     ended = command("--domain", "\x1b[2J\x07")
-    assert (ended.code, ended.err) == (2, r"llm3: error: unknown domain '\x1b[2J\x07'. Known: boxpack, corridor." "\n")
+    assert (ended.code, ended.err) == (2, rf"llm3: error: unknown domain '\x1b[2J\x07'. Known: {DOMAINS}." "\n")
 
 
 def test_a_command_leaves_signals_and_streams_as_they_were(command):

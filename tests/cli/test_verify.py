@@ -131,7 +131,8 @@ def test_another_instance_is_another_problem(watched, cwd):
         (
             lambda plan: plan.update(domain="wached"),
             2,
-            "unknown domain 'wached'; did you mean 'watched'? Known: boxpack, corridor, watched.",
+            "unknown domain 'wached'; did you mean 'watched'? Known: blocks, boxpack, corridor, kitchen, tabletop2d, "
+            "watched.",
         ),
         (
             lambda plan: plan.update(options={"walls": "1"}),

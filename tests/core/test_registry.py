@@ -360,14 +360,14 @@ def test_what_ships_is_found_and_whole():
     registry = Registry.discover()
     shipped = {kind: {r.name for r in registry.registrations(kind) if "(llm3 " in r.plugin} for kind in HOOKS}
     assert shipped == {
-        "domain": {"boxpack"},
+        "domain": {"blocks", "boxpack", "kitchen", "tabletop2d"},
         "strategy": {"backtrack", "scratch", "sample-params"},
         "feedback": {"categorized", "binary", "none"},
         "planner": {"birrt", "ompl-bitstar", "ompl-lbkpiece", "ompl-rrtconnect"},
         "timer": {"toppra"},
         "backend": {"offline", "random", "replay", "scripted", "http", "litellm"},
         "model source": {"http"},
-        "experiment": {"smoke", "table1", "table2"},
+        "experiment": {"blocks", "kitchen", "smoke", "table1", "table2", "tabletop2d"},
     }
     assert all(isinstance(registry.strategy(name), Strategy) for name in shipped["strategy"])
     assert isinstance(registry.backend("offline", BackendSettings(stand_in=lambda *_: "")), LLMBackend)

@@ -9,12 +9,14 @@ from scipy.spatial.transform import Rotation
 
 from llm3.jsonio import loads
 from llm3.types import Contact, Failure, FailureKind, Held, Pose, State
-from llm3_boxpack import env, goal, grasps, instance, layout, manipulation, release, settings
+from llm3_boxpack import goal, instance, layout, settings
 from llm3_boxpack.domain import MAX_WALL_HEIGHT, BoxPack
 from llm3_boxpack.instance import BasketSpec, BoxpackInstance, BoxSpec
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.robot import ParallelGripper
 from llm3_bullet.settle import SettlerSettings
+from llm3_bullet.tabletop import grasps, manipulation, stance, surprises, tabletop
+from llm3_bullet.tabletop import table as tabletop_table
 from llm3_bullet.touchdown import CUT_SHORT, TouchdownSettings
 from llm3_words.sentences import FEASIBLE, sentence_of
 
@@ -93,7 +95,7 @@ def test_the_limits_of_an_instance_file_are_those_of_its_sentences():
         BasketSpec((0.5, 0.0), (0.01, 0.2))
     assert "0.005 to 0.5 m each" in PAGE
     assert "0.02 to 2 m" in PAGE
-    corners = instance.TABLE.corners
+    corners = tabletop_table.TABLE_TOP.corners
     (low_x, low_y), (high_x, high_y) = corners.min(axis=0), corners.max(axis=0)
     assert f"x from {low_x} to {high_x} m and y from {low_y} to {high_y} m" in PAGE
 
@@ -105,14 +107,14 @@ def test_the_limits_of_an_instance_file_are_those_of_its_sentences():
     "text",
     [
         f"a plate of {instance.TRAY_THICKNESS * 1000:g} mm",
-        f"more than {release.SLID * 1000:g} mm",
-        f"more than {release.TURNED:g} rad",
-        f"more than {np.degrees(release.LEANS):g} degrees",
-        f"more than {np.degrees(release.TOPPLED):g} degrees",
-        f"leans by more than {np.degrees(np.arccos(layout.UPRIGHT)):g} degrees",
+        f"more than {surprises.SLID * 1000:g} mm",
+        f"more than {surprises.TURNED:g} rad",
+        f"more than {np.degrees(surprises.LEANS):g} degrees",
+        f"more than {np.degrees(surprises.TOPPLED):g} degrees",
+        f"leans by more than {np.degrees(np.arccos(stance.UPRIGHT)):g} degrees",
         f"The tolerance is {goal.TOLERANCE * 1000:g} mm",
         f"{manipulation.DROP * 1000:g} mm above what it will stand on",
-        f"keep {env.CLEARANCE * 1000:g} mm away from everything",
+        f"keep {tabletop.CLEARANCE * 1000:g} mm away from everything",
         f"{grasps.OPENING_MARGIN * 1000:g} mm wider than the box",
         f"The widest box that it takes is {GRIPPER.max_opening - grasps.OPENING_MARGIN:g} m",
         f"{grasps.ABOVE_CENTER * 1000:g} mm, or a quarter of the box's height",
@@ -140,7 +142,7 @@ def test_the_figures_of_a_grasp():
 def test_the_figures_of_a_grasp_stand_where_the_page_says():
     for _, _, (name,) in (map(names, row) for row in table(PAGE, "Grasps").rows):
         assert hasattr(grasps if name.isupper() else GRIPPER, name), name
-    for file in ("plugins/llm3_bullet/robots/panda.py", "domains/llm3_boxpack/grasps.py"):
+    for file in ("plugins/llm3_bullet/robots/panda.py", "plugins/llm3_bullet/tabletop/grasps.py"):
         assert f"`{file}`" in PAGE
         assert (ROOT / file).is_file()
 
@@ -174,17 +176,16 @@ def test_every_failure_of_a_motion_reads_as_documented():
 
 
 def test_every_precondition_reads_as_documented():
-    boxes = {box.name: box for box in PROBLEM.boxes}
-    wide = {**boxes, "red_box": BoxSpec("red_box", (0.1, 0.1, 0.1), (0.39, -0.3))}
+    sizes = {box.name: box.size for box in PROBLEM.boxes}
     pose = Pose((0.4, 0.0, 0.035))
-    hands = manipulation.Manipulation(boxes, (), PROBLEM.basket, GRIPPER)
-    big_hands = manipulation.Manipulation(wide, (), PROBLEM.basket, GRIPPER)
+    hands = manipulation.Manipulation(sizes, (), GRIPPER)
+    big_hands = manipulation.Manipulation({**sizes, "red_box": (0.1, 0.1, 0.1)}, (), GRIPPER)
     slanted = Pose(pose.position, tuple(Rotation.from_euler("x", 20, degrees=True).as_quat()))
     holding = State({"red_box": pose}, held=Held("blue_box", Pose((0.0, 0.0, 0.0))))
     failures = [
         hands.pick(holding, "red_box"),
-        hands.place(State({"red_box": pose}), "red_box", 0.6, 0.0, 0.0),
-        hands.place(holding, "red_box", 0.6, 0.0, 0.0),
+        hands.in_hand(State({"red_box": pose}), "red_box"),
+        hands.in_hand(holding, "red_box"),
         hands.pick(State({"red_box": slanted}), "red_box"),
         big_hands.pick(State({"red_box": pose}), "red_box"),
     ]
@@ -201,7 +202,7 @@ def test_what_physics_does_reads_as_documented():
         return as_pose(matrix)
 
     for after in (moved(x=0.612), moved(yaw=0.2), moved(tilt=20), moved(tilt=90)):
-        (note,) = release.surprises({"red_box": moved()}, {"red_box": after})
+        (note,) = surprises.surprises({"red_box": moved()}, {"red_box": after})
         assert note in told()
 
 

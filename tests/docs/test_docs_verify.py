@@ -19,7 +19,7 @@ def limits() -> dict[str, str]:
 @pytest.mark.pybullet
 def test_the_limits_are_those_of_the_verifier():
     from llm3_boxpack import verification as boxpack
-    from llm3_bullet.verification import gripping, states, sweep, way
+    from llm3_bullet.verification import deeds, gripping, states, sweep, way
 
     assert {what: text.partition(",")[0] for what, text in limits().items()} == {
         "depth of a contact": f"{sweep.CONTACT * 1000:g} mm",
@@ -31,11 +31,11 @@ def test_the_limits_are_those_of_the_verifier():
         "from a trajectory to the straight way between two waypoints, by joint": f"{way.ASIDE:g} rad or m",
         "from a box's centre to being over what it stands on": f"{states.OVERHANG * 1000:g} mm",
         "jump of what is taken": f"{gripping.JUMP * 1000:g} mm",
-        "from where a box is let go to where the action says": f"{boxpack.OFF_PLACE * 1000:g} mm",
+        "from where a box is let go to where the action says": f"{deeds.OFF_PLACE * 1000:g} mm",
         "from where a box is let go to where it comes to rest": f"{states.SETTLED * 1000:g} mm",
         "out of the basket": f"{boxpack.OUT_OF_BASKET * 1000:g} mm",
     }
-    assert f"{boxpack.OFF_ANGLE:g} rad" in limits()["from where a box is let go to where the action says"]
+    assert f"{deeds.OFF_ANGLE:g} rad" in limits()["from where a box is let go to where the action says"]
     assert f"come nearer by more than {sweep.STEP * 1000:g} mm from one look" in " ".join(page("command-line").split())
 
 

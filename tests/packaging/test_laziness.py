@@ -21,7 +21,7 @@ LOOKS = {
         "for solver in ('loop', 'search'):\n"
         "    prepare(Registry.discover(), RunConfig('boxpack', solver=solver, timing='none')).close()"
     ),
-    "llm3 --domain kitchen": "from llm3.cli.main import main; main(['--domain', 'kitchen'])",
+    "llm3 --domain garden": "from llm3.cli.main import main; main(['--domain', 'garden'])",
 }
 
 

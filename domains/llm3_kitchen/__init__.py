@@ -1,0 +1,1 @@
+"""Food is fetched from among clutter, washed, heated and served."""

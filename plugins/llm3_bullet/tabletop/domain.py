@@ -1,0 +1,73 @@
+"""A domain of worlds around a tabletop: any robot, with or without a window, each world made out of the last one."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from contextlib import ExitStack, closing
+from typing import TYPE_CHECKING, Any
+
+from llm3.interfaces import Domain, Env, Option, Options
+
+if TYPE_CHECKING:  # a domain is cheap to make, and what a world needs is not cheap to import
+    from llm3_bullet.tabletop.env import TabletopEnv
+    from llm3_bullet.workcell import Workcell
+
+ROBOT = Option("robot", "panda", "panda, iiwa, or a .json file that describes another one")
+
+
+class TabletopDomain(Domain):
+    """What is left to a subclass: its instances, its Env, and the capabilities that it has."""
+
+    options: tuple[Option, ...] = (ROBOT,)
+
+    @abstractmethod
+    def env(self, instance: Any, workcell: Workcell, options: Options) -> TabletopEnv:
+        """The world of an instance.
+
+        Args:
+            instance: An `instance_type`.
+            workcell: The robot and its simulators; the Env owns them from now on.
+            options: A value for every one of the domain's `options`.
+        """
+
+    def self_contained(self, options: Options) -> Options:
+        """With the description of a robot that comes from a file."""
+        from llm3_bullet.robots import in_place
+
+        return {**options, "robot": in_place(options["robot"])}
+
+    def make(self, instance: Any, options: Options) -> Env:
+        """A PyBullet world without a window."""
+        from llm3_bullet.robots import find_robot
+        from llm3_bullet.workcell import Workcell
+
+        with ExitStack() as stack:
+            cell = stack.enter_context(closing(Workcell(find_robot(options["robot"]))))
+            env = self.env(instance, cell, options)
+            stack.pop_all()  # it is the Env's to close now
+            return env
+
+    def make_in_window(self, instance: Any, options: Options) -> Env | None:
+        """A PyBullet world, with a second one in a window that plays what happens."""
+        from llm3_bullet.clients import connect
+        from llm3_bullet.robots import find_robot
+        from llm3_bullet.tabletop.window import WindowEnv
+        from llm3_bullet.workcell import Workcell
+
+        robot = find_robot(options["robot"])
+        with ExitStack() as stack:
+            client = stack.enter_context(connect(gui=True))
+            cell = stack.enter_context(closing(Workcell(robot)))
+            env = WindowEnv(self.env(instance, cell, options), client)
+            stack.pop_all()
+            return env
+
+    def remake(self, env: Env, instance: Any, options: Options) -> Env | None:
+        """A world around the same robot, whose simulators go on; None for another robot, or out of a window."""
+        from llm3_bullet.robots import find_robot
+        from llm3_bullet.tabletop.env import TabletopEnv
+
+        if not isinstance(env, TabletopEnv):
+            return None
+        cell = env.tabletop.workcell
+        return self.env(instance, cell, options) if cell.fits(find_robot(options["robot"])) else None

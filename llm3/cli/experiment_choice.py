@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
 
-from llm3.cli.problem_arguments import seed
+from llm3.cli.problem_arguments import pair, seed
 from llm3.errors import InputError, UnknownName, UsageError
 from llm3.experiments import Experiment, experiment_of, overridden, parse_toml, providers
 from llm3.jsonio import dumps
@@ -31,7 +32,7 @@ def add_choice_arguments(parser: ArgumentParser) -> None:
         "--set",
         dest="assignments",
         metavar="FIELD=VALUE",
-        type=_assignment,
+        type=partial(pair, form="FIELD=VALUE"),
         action="append",
         default=[],
         help="set any other field, such as run.max_llm_calls=5; may be given several times",
@@ -96,10 +97,3 @@ def _read(file: Path) -> str:
         raise InputError(f"{file}: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
         raise InputError(f"{file}: not UTF-8 text: {error.reason} at byte {error.start}") from error
-
-
-def _assignment(text: str) -> tuple[str, str]:
-    field, equals, value = text.partition("=")
-    if not field.strip() or not equals:
-        raise ArgumentTypeError(f"expected FIELD=VALUE, not {text!r}")
-    return field.strip(), value

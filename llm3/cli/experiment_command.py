@@ -16,7 +16,7 @@ from llm3.cli.experiment_choice import (
     chosen_part,
 )
 from llm3.cli.experiment_preview import preview
-from llm3.cli.problem_arguments import path
+from llm3.cli.problem_arguments import pair, path
 from llm3.cli.text import emit, printable
 from llm3.errors import UsageError
 from llm3.experiments import (
@@ -164,7 +164,5 @@ def _count(text: str) -> int:
 
 
 def _limit(text: str) -> tuple[str, int]:
-    provider, equals, number = text.partition("=")
-    if not provider or not equals:
-        raise ArgumentTypeError(f"expected PROVIDER=N, not {text!r}")
+    provider, number = pair(text, "PROVIDER=N")
     return provider, _count(number)

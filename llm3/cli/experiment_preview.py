@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from llm3.experiments import Experiment, Share
+from llm3.wording import counted
 
 
 def preview(experiment: Experiment, shares: tuple[Share, ...], folder: Path) -> Iterator[str]:
@@ -17,26 +18,22 @@ def preview(experiment: Experiment, shares: tuple[Share, ...], folder: Path) -> 
         folder: Where the runs go.
     """
     yield (
-        f"{experiment.name}: {_count(len(experiment), 'run')}, of {_count(len(experiment.methods), 'method')} on "
-        f"{_count(len(experiment.problems), 'problem')} with {_count(len(experiment.seeds), 'seed')}"
+        f"{experiment.name}: {counted(len(experiment), 'run')}, of {counted(len(experiment.methods), 'method')} on "
+        f"{counted(len(experiment.problems), 'problem')} with {counted(len(experiment.seeds), 'seed')}"
     )
     missing = sum(share.runs for share in shares)
     if missing < len(experiment):
-        yield f"{_count(len(experiment) - missing, 'run')} ended before in {folder}, and {missing:,} are missing"
+        yield f"{counted(len(experiment) - missing, 'run')} ended before in {folder}, and {missing:,} are missing"
     width = max((len(share.method) for share in shares), default=0)
     for share in shares:
-        yield f"  {share.method:<{width}}  {_count(share.runs, 'run'):>10}, {_at_most(share)}"
+        yield f"  {share.method:<{width}}  {counted(share.runs, 'run'):>10}, {_at_most(share)}"
     calls = sum(share.calls for share in shares if share.language_model)
-    yield f"at most {_count(calls, 'call')} of a language model"
+    yield f"at most {counted(calls, 'call')} of a language model"
 
 
 def _at_most(share: Share) -> str:
     if not share.calls:
-        return f"at most {_count(share.motion_calls, 'motion call')} of the solver {share.asked}"
+        return f"at most {counted(share.motion_calls, 'motion call')} of the solver {share.asked}"
     if share.language_model:
-        return f"at most {_count(share.calls, 'call')} of {share.asked}"
-    return f"at most {_count(share.calls, 'proposal')} of {share.asked}, which is no language model"
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number:,} {noun}{'s' * (number != 1)}"
+        return f"at most {counted(share.calls, 'call')} of {share.asked}"
+    return f"at most {counted(share.calls, 'proposal')} of {share.asked}, which is no language model"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,7 @@ def add_world_arguments(parser: ArgumentParser) -> None:
         "-D",
         dest="options",
         metavar="KEY=VALUE",
-        type=_option,
+        type=partial(pair, form="KEY=VALUE"),
         action="append",
         default=[],
         help="set an option of the domain; may be given several times",
@@ -100,8 +101,14 @@ def seed(text: str) -> int:
     raise ArgumentTypeError(f"expected a whole number from 0 to {LARGEST_SEED}, not {text!r}")
 
 
-def _option(text: str) -> tuple[str, str]:
+def pair(text: str, form: str) -> tuple[str, str]:
+    """What stands on both sides of the first ``=``, for arguments.
+
+    Args:
+        text: The argument.
+        form: What it should look like, such as ``KEY=VALUE``.
+    """
     key, equals, value = text.partition("=")
-    if not key or not equals:
-        raise ArgumentTypeError(f"expected KEY=VALUE, not {text!r}")
-    return key, value
+    if not key.strip() or not equals:
+        raise ArgumentTypeError(f"expected {form}, not {text!r}")
+    return key.strip(), value

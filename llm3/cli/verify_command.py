@@ -13,6 +13,7 @@ from llm3.records import PlanFile, open_plan, read_plan
 from llm3.registry import Registry
 from llm3.types import Verification
 from llm3.verification import verify
+from llm3.wording import counted
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -37,7 +38,7 @@ def _lines(plan: PlanFile, found: Verification) -> Iterator[str]:
     if not found.sound:
         yield from map(str, found.defects)
         return
-    line = f"sound: {_count(len(plan.actions), 'action')}, {_count(found.configurations, 'configuration')} looked at"
+    line = f"sound: {counted(len(plan.actions), 'action')}, {counted(found.configurations, 'configuration')} looked at"
     if found.configurations:
         line += f", deepest contact {found.deepest_contact * 1000:.2f} mm"
     yield line
@@ -53,7 +54,3 @@ def _summary(plan: PlanFile, found: Verification) -> dict[str, object]:
         "clearances": found.clearances,
         "defects": found.defects,
     }
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'s' * (number != 1)}"

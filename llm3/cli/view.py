@@ -21,6 +21,7 @@ from llm3.types import (
     Result,
     RunEvent,
 )
+from llm3.wording import counted
 
 _STOPS = {
     "tokens": "the budget of tokens is used up",
@@ -76,7 +77,7 @@ class RunView:
             elif isinstance(event.proposal, Failure):
                 self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
             else:
-                actions = _count(len(event.proposal.actions), "action")
+                actions = counted(len(event.proposal.actions), "action")
                 self._line(f"attempt {event.attempt}: a plan of {actions}", "bold")
                 self._wait(f"attempt {event.attempt} of {self._budget}: trying the plan")
         elif self._budget is None and (isinstance(event, AttemptEnded) or _known(event)):
@@ -90,10 +91,12 @@ class RunView:
         """Show how the run ended, what it took and, if known, what it cost, and where the record is."""
         stats = result.stats
         word, style = ("solved", "bold green") if result.solved else ("not solved", "bold red")
-        asked = _count(len(result.attempts), "plan") if self._budget is None else _count(stats.llm_calls, "model call")
+        asked = (
+            counted(len(result.attempts), "plan") if self._budget is None else counted(stats.llm_calls, "model call")
+        )
         self._line(
             f"{word} in {seconds:.1f} s: {asked}, "
-            f"{_count(stats.motion_calls, 'motion call')}, {_count(stats.reused_actions, 'action')} reused",
+            f"{counted(stats.motion_calls, 'motion call')}, {counted(stats.reused_actions, 'action')} reused",
             style,
         )
         if stats.tokens:
@@ -128,7 +131,3 @@ class RunView:
 
 def _known(event: RunEvent) -> bool:
     return isinstance(event, ActionTried) and event.outcome.reused
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}{'s' * (number != 1)}"

@@ -11,8 +11,8 @@ from importlib import metadata
 from typing import TYPE_CHECKING
 
 from llm3.errors import LLM3Error, MissingDependency, UsageError
-from llm3.experiments.outlook import MACHINE
-from llm3.records.run_file import VERSIONED, versions
+from llm3.experiments.outlook import package_versions
+from llm3.records.run_file import VERSIONED
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -73,10 +73,10 @@ def _quiet() -> Iterator[None]:
             logger.setLevel(level)
 
 
-def package_versions() -> Mapping[str, str]:
+def installed_versions() -> Mapping[str, str]:
     """What decides results and is installed here: Python, the packages, and whatever brings plugins."""
     plugins = {point.dist.name: point.dist.version for point in metadata.entry_points(group="llm3") if point.dist}
-    return {**plugins, **{name: version for name, version in versions().items() if name not in MACHINE}}
+    return {**plugins, **package_versions()}
 
 
 def _checked(client: Client, address: str, seconds: float) -> int:
@@ -94,8 +94,8 @@ def _checked(client: Client, address: str, seconds: float) -> int:
                 f"the Dask worker {worker} has {count} threads, and runs need one that has 1: start it with "
                 "--nthreads 1 (and with --nworkers for as many processes)."
             )
-    here = package_versions()
-    for worker, there in sorted(client.run(package_versions, on_error="return").items()):
+    here = installed_versions()
+    for worker, there in sorted(client.run(installed_versions, on_error="return").items()):
         if isinstance(there, BaseException):
             raise LLM3Error(f"the Dask worker {worker} cannot load llm3: {there}")
         for name, version in here.items():

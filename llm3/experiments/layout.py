@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 from llm3.types import FrozenDict
 
@@ -46,11 +46,6 @@ class Layout:
 
     def __post_init__(self) -> None:
         check_measures(self.measures)
-
-    def only(self, problems: Collection[str]) -> Layout:
-        """The same with the columns of these problems alone, and without groups that are empty then."""
-        groups = (replace(g, columns=tuple(c for c in g.columns if c.problem in problems)) for g in self.groups)
-        return replace(self, groups=tuple(group for group in groups if group.columns))
 
 
 @dataclass(frozen=True)

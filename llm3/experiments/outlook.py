@@ -68,11 +68,15 @@ def _settled(registry: Registry, problem: ProblemFamily) -> ProblemFamily:
     return replace(problem, options={name: options[name] for name in problem.options})
 
 
+def package_versions() -> Mapping[str, str]:
+    """The packages here that a result depends on, on whichever machine it is made."""
+    return {name: version for name, version in versions().items() if name not in MACHINE}
+
+
 def versions_of(experiment: Experiment, outlooks: Iterable[MethodOutlook]) -> Mapping[str, str]:
     """What the results depend on: packages, the plugins that the methods use, and the files that backends read."""
-    packages = {name: version for name, version in versions().items() if name not in MACHINE}
     plugins = {name: origin for outlook in outlooks for name, origin in sorted(outlook.plugins.items())}
-    return FrozenDict({**packages, **plugins, **dict(_files(experiment))})
+    return FrozenDict({**package_versions(), **plugins, **dict(_files(experiment))})
 
 
 def _files(experiment: Experiment) -> Iterator[tuple[str, str]]:

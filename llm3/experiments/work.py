@@ -15,10 +15,10 @@ from llm3.assembly import Run, prepare
 from llm3.errors import LLM3Error, PluginError
 from llm3.experiments.experiment import Job
 from llm3.experiments.run_line import RunLine
-from llm3.experiments.tally import Tally
 from llm3.interfaces import Env
 from llm3.jsonio import dumps, loads
 from llm3.records import Recorder, create_folder
+from llm3.records.tally import Tally
 from llm3.registry import Registry
 from llm3.types import Observer, Result, RunEvent
 

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from llm3.parsing.values import Value, written
 from llm3.types import ActionSchema, Parameter, Sketch
+from llm3.wording import counted
 
 # ---- what was mended ---------------------------------------------------------------------------------------------
 
@@ -53,7 +54,7 @@ def unknown_action(name: str, known: Sequence[str]) -> str:
 
 def wrong_number_of_objects(schema: ActionSchema, given: Sequence[Value]) -> str:
     wanted = (
-        f"{_count(len(schema.objects), 'object')} ({', '.join(schema.objects)})" if schema.objects else "no objects"
+        f"{counted(len(schema.objects), 'object')} ({', '.join(schema.objects)})" if schema.objects else "no objects"
     )
     shown = f" ({cut(', '.join(written(value) for value in given))})" if given else ""
     return f"{schema.name} takes {wanted}, not {len(given)}{shown}"
@@ -134,10 +135,6 @@ def _range(parameter: Parameter) -> str:
 
 def _plain(number: float) -> str:
     return repr(float(number)).removesuffix(".0")
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def _form(schema: ActionSchema) -> str:

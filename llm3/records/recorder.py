@@ -16,8 +16,9 @@ from llm3.records.event_lines import EVENTS_FORMAT, fields_of
 from llm3.records.json_lines import LineWriter
 from llm3.records.plan import plan_file
 from llm3.records.run_file import run_file
+from llm3.records.tally import Tally
 from llm3.records.whole_file import write_whole
-from llm3.types import AttemptEnded, CallFailed, ReplyReceived, RunEnded, RunEvent, Stats
+from llm3.types import AttemptEnded, RunEnded, RunEvent
 
 
 class Recorder:
@@ -37,6 +38,7 @@ class Recorder:
         self.folder = folder
         self._run, self._clock, self._began = run, clock, clock()
         self._file = run_file(run)
+        self._tally = Tally()
         self._events = LineWriter(folder / "events.jsonl", EVENTS_FORMAT)
         try:
             self._write_run()
@@ -52,20 +54,15 @@ class Recorder:
         if isinstance(event, RunEnded) and event.result.solved:  # before the line that promises a plan
             write_whole(self.folder / "plan.json", pretty(plan_file(self._run.problem, event.result)))
         self._events.write({"event": type(event).__name__, "time": round(self.seconds, 3), **fields_of(event)})
-        if isinstance(event, ReplyReceived):  # paid for, even if the run is cut off before the attempt ends
-            spent = event.completion.stats + Stats(llm_calls=1)
-            self._file = replace(self._file, stats=self._file.stats + spent)
-        elif isinstance(event, CallFailed):
-            self._file = replace(self._file, stats=self._file.stats + event.stats)
-        elif isinstance(event, AttemptEnded):
-            self._file = replace(self._file, stats=event.stats, unmet=event.attempt.goal.unmet)
+        self._tally(event)
+        if isinstance(event, AttemptEnded):
+            self._file = replace(self._file, unmet=event.attempt.goal.unmet)
         elif isinstance(event, RunEnded):
             result = event.result
             status: Literal["solved", "not solved"] = "solved" if result.solved else "not solved"
             self._file = replace(
                 self._file,
                 status=status,
-                stats=result.stats,
                 unmet=result.goal.unmet,
                 time_limited=result.time_limited,
                 stop=result.stop,
@@ -89,5 +86,5 @@ class Recorder:
         return self._clock() - self._began
 
     def _write_run(self) -> None:
-        self._file = replace(self._file, seconds=round(self.seconds, 3))
+        self._file = replace(self._file, stats=self._tally.stats, seconds=round(self.seconds, 3))
         write_whole(self.folder / "run.json", pretty(self._file))

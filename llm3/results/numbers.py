@@ -59,8 +59,3 @@ def _exact(value: float, measure: str) -> str:
 
 def _signed(text: str) -> str:
     return text if text.startswith("-") else f"+{text}"
-
-
-def plural(number: int, noun: str) -> str:
-    """A number and what it counts."""
-    return f"{number} {noun}{'s' * (number != 1)}"

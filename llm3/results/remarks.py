@@ -8,8 +8,8 @@ from llm3.experiments import ExperimentRecord
 from llm3.results.cells import Cell
 from llm3.results.differences import common_problems
 from llm3.results.measures import without_model
-from llm3.results.numbers import plural
 from llm3.results.table import one_line
+from llm3.wording import counted
 
 ENDINGS = {"crashed": "crashed", "error": "ended in an error"}
 
@@ -24,17 +24,17 @@ def remarks(record: ExperimentRecord, cells: Sequence[Cell]) -> Iterator[str]:
             runs = [run for run in cell.ended if run.status == status]
             if runs:
                 yield (
-                    f"{plural(len(runs), 'run')} of {_place(cell)} {ended}, and no figure has "
+                    f"{counted(len(runs), 'run')} of {_place(cell)} {ended}, and no figure has "
                     f"{'it' if len(runs) == 1 else 'them'} in it. The first one, seed {runs[0].key.seed}: "
                     f"{one_line(runs[0].error) or 'no reason is known'}"
                 )
     for cell in cells:
         if cell.missing:
-            yield f"{plural(cell.missing, 'run')} of {_place(cell)} {'is' if cell.missing == 1 else 'are'} missing."
+            yield f"{counted(cell.missing, 'run')} of {_place(cell)} {'is' if cell.missing == 1 else 'are'} missing."
     if waiting:
         yield f"No run of {', '.join(waiting)} has ended."
     if record.strangers:
-        yield f"{plural(record.strangers, 'line')} of runs.jsonl tell of runs that the experiment does not have."
+        yield f"{counted(record.strangers, 'line')} of runs.jsonl tell of runs that the experiment does not have."
     for versions in record.earlier:
         told = ", ".join(f"{one_line(name)} {one_line(version)}" for name, version in sorted(versions.items()))
         yield f"Some runs were made with other versions: {told}."
@@ -42,8 +42,8 @@ def remarks(record: ExperimentRecord, cells: Sequence[Cell]) -> Iterator[str]:
         limited = sum(run.time_limited for run in cell.ended)
         if limited:
             yield (
-                f"{plural(limited, 'run')} of {_place(cell)} met a limit of wall-clock time inside of a query, and may "
-                "end otherwise when run again."
+                f"{counted(limited, 'run')} of {_place(cell)} met a limit of wall-clock time inside of a query, and "
+                "may end otherwise when run again."
             )
     runs_of = {name: [run for cell in cells if cell.method == name for run in cell.ended] for name in begun}
     names = [method.name for method in record.experiment.methods if method.name in begun]

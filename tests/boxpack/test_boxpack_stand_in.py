@@ -7,6 +7,7 @@ from math import hypot
 
 import numpy as np
 import pytest
+from feedback_traces import traces_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -83,16 +84,7 @@ actions = st.one_of(
         st.floats(-3.14, 3.14),
     ),
 )
-remarks = st.builds(
-    Remark,
-    st.one_of(actions.map(str), st.text(max_size=40), st.just("place(['nobody'], {'x': 1})")),
-    st.sampled_from(["feasible", "failed", "not tried"]),
-    st.text(max_size=40),
-    st.sampled_from([None, *FailureKind]),
-)
-traces = st.lists(
-    st.builds(Feedback, st.integers(1, 20), st.lists(remarks, max_size=10).map(tuple), st.text(max_size=40)), max_size=5
-).map(tuple)
+traces = traces_of(actions)
 
 
 @some

@@ -32,7 +32,7 @@ def tampered(folder, name: str, change) -> str:
 def test_a_solved_plan_is_sound_twice_alike(folder):
     ended = verify(folder)
     assert (ended.code, ended.err) == (0, "")
-    assert re.fullmatch(r"sound: 8 actions, \d+ configurations looked at, deepest contact 0\.\d\d mm\n", ended.out)
+    assert re.fullmatch(r"sound: 8 actions, [\d,]+ configurations looked at, deepest contact 0\.\d\d mm\n", ended.out)
     assert verify(folder) == ended
 
 

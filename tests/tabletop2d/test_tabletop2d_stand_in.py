@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from feedback_traces import traces_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plane_world import DOMAIN, box, disc, pick, place, problem, push
@@ -57,16 +58,7 @@ actions = st.one_of(
     st.builds(place, st.sampled_from(NAMES), st.floats(0, 1.2), st.floats(0, 0.8)),
     st.builds(push, st.sampled_from(NAMES), st.floats(0, 1.2), st.floats(0, 0.8)),
 )
-remarks = st.builds(
-    Remark,
-    st.one_of(actions.map(str), st.text(max_size=40), st.just("place(['nobody'], {'x': 1})")),
-    st.sampled_from(["feasible", "failed", "not tried"]),
-    st.text(max_size=40),
-    st.sampled_from([None, *FailureKind]),
-)
-traces = st.lists(
-    st.builds(Feedback, st.integers(1, 20), st.lists(remarks, max_size=6).map(tuple), st.text(max_size=40)), max_size=6
-).map(tuple)
+traces = traces_of(actions)
 
 
 @some

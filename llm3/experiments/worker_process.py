@@ -26,6 +26,10 @@ class WorkerDied(Exception):
     """A worker process ended in the middle of its work; the text says how."""
 
 
+class DiedBefore(WorkerDied):
+    """A worker process ended before it took the work that it was given."""
+
+
 class WorkFailed(Exception):
     """What a worker was given raised an exception; the text is the traceback, as the worker saw it."""
 
@@ -57,12 +61,6 @@ class WorkerProcess:
         finally:
             other.close()
 
-    @property
-    def is_alive(self) -> bool:
-        """Whether it can be given work."""
-        with self._reaping:
-            return self._process.is_alive()
-
     def wait_until_ready(self) -> None:
         """Wait until it can work.
 
@@ -75,13 +73,17 @@ class WorkerProcess:
         """Have it call a function, and wait for the answer.
 
         Raises:
+            DiedBefore: It had ended before, so nothing of this was done.
             WorkerDied: It ended before it answered.
             WorkFailed: The function raised an exception.
         """
         try:
             self._connection.send((function, arguments))
+            self._receive()
         except OSError:
-            raise WorkerDied(self._ending()) from None
+            raise DiedBefore(self._ending()) from None
+        except WorkerDied as error:
+            raise DiedBefore(str(error)) from None
         done, answer = self._receive()
         if not done:
             raise WorkFailed(answer)
@@ -145,7 +147,9 @@ def _serve(connection: Connection) -> None:
     with contextlib.suppress(EOFError, OSError):  # nobody is there any more
         connection.send("ready")
         while True:
-            connection.send_bytes(_answer(connection.recv_bytes()))
+            message = connection.recv_bytes()
+            connection.send("taken")
+            connection.send_bytes(_answer(message))
 
 
 def _answer(message: bytes) -> bytes:

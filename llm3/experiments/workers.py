@@ -10,7 +10,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from llm3.errors import LLM3Error, UsageError
-from llm3.experiments.worker_process import WorkerDied, WorkerProcess
+from llm3.experiments.worker_process import DiedBefore, WorkerDied, WorkerProcess
 
 T = TypeVar("T")
 Item = tuple["Future[Any]", Callable[..., Any], tuple[Any, ...]]
@@ -112,11 +112,14 @@ class SpawnedWorkers(Executor):
             if not future.set_running_or_notify_cancel():
                 continue
             try:
-                if worker and not worker.is_alive:  # it died without work, which is nobody's loss
-                    self._end(worker)
-                    worker = None
-                worker = worker or self._start()
-                future.set_result(worker.do(function, arguments))
+                while True:
+                    worker = worker or self._start()
+                    try:
+                        future.set_result(worker.do(function, arguments))
+                        break
+                    except DiedBefore:  # it died without work, which is nobody's loss
+                        self._end(worker)
+                        worker = None
             except WorkerDied as error:
                 self._end(worker)
                 worker = None

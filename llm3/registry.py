@@ -11,6 +11,7 @@ import pluggy
 
 from llm3 import hookspecs
 from llm3.errors import LLM3Error, PluginError, UnknownName
+from llm3.guarded import place
 from llm3.interfaces import (
     BackendSettings,
     Domain,
@@ -91,7 +92,8 @@ class Registry:
             except LLM3Error as error:
                 registry._remember(plugin, str(error))
             except (Exception, SystemExit) as error:  # whatever a stranger's import raises must not kill the program
-                registry._remember(plugin, f"{type(error).__name__}: {error}")
+                at = place(error, entry_point.module.partition(".")[0])
+                registry._remember(plugin, f"{type(error).__name__}: {error}" + f" ({at})" * bool(at))
         return registry
 
     def register(self, plugin: object, name: str) -> None:
@@ -165,8 +167,15 @@ class Registry:
                     wanted, got = expected.__name__, type(made).__name__
                     raise PluginError(f"{registration.plugin}: {kind} {name!r} made a {got}, not a {wanted}.")
                 return made
-        failed = "; ".join(f"{b.plugin} ({b.reason})" for b in self.broken)
-        raise UnknownName(kind, name, self.names(kind), remark=f"Failed to load: {failed}." if failed else "")
+        raise self.unknown(kind, name, self.names(kind))
+
+    def unknown(self, kind: str, name: str, known: Iterable[str]) -> LLM3Error:
+        """What to raise where there is no such name: a plugin that failed to load is the likely reason."""
+        for broken in self.broken:
+            if broken.plugin.partition(" (")[0] == name:
+                return PluginError(f"plugin {broken.plugin} cannot be loaded: {broken.reason.removesuffix('.')}.")
+        failed = "; ".join(f"{broken.plugin} ({broken.reason})" for broken in self.broken)
+        return UnknownName(kind, name, known, remark=f"Failed to load: {failed}." if failed else "")
 
     def domain(self, name: str) -> Domain:
         """The domain of this name.

@@ -61,6 +61,8 @@ def solve(
 ) -> Result:
     """Ask the model for plans until one reaches the goal or the budget ends.
 
+    Where the goal is reached at the start there is nothing to ask, and the plan is empty.
+
     Args:
         env: The problem.
         backend: The language model, or what stands in for it.
@@ -97,7 +99,7 @@ def solve(
     attempts: list[Attempt] = []
     goal = goal_of(start)
     plan: tuple[PlannedAction, ...] = ()
-    stop: Stop | None = None
+    stop: Stop | None = "solved" if goal.achieved else None
     while not stop:
         number = len(attempts) + 1
         context = context_of(env, start, trace.entries, skeleton)

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from typing import TextIO
 
 from llm3.cli.text import emit, printable
-from llm3.errors import UnknownName, UsageError
+from llm3.errors import UsageError
 from llm3.interfaces import BackendSettings, PlannerSettings
 from llm3.jsonio import dumps
 from llm3.registry import Registry
@@ -61,9 +61,7 @@ def _kind(registry: Registry, name: str) -> str:
     plain = name.partition(":")[0]
     kinds = [kind for kind in KINDS if (plain if kind == "backend" else name) in registry.names(kind)]
     if not kinds:
-        failed = "; ".join(f"{broken.plugin} ({broken.reason})" for broken in registry.broken)
-        known = {known for kind in KINDS for known in registry.names(kind)}
-        raise UnknownName("plugin", name, known, remark=f"Failed to load: {failed}." if failed else "")
+        raise registry.unknown("plugin", name, {known for kind in KINDS for known in registry.names(kind)})
     if len(kinds) > 1:
         raise UsageError(
             f"{name!r} is the name of a {' and of a '.join(kinds)}: give --kind {' or --kind '.join(kinds)}."

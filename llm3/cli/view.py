@@ -99,6 +99,8 @@ class RunView:
             f"{counted(stats.motion_calls, 'motion call')}, {counted(stats.reused_actions, 'action')} reused",
             style,
         )
+        if result.solved and not result.plan:
+            self._line("the goal is reached before anything is done", "yellow")
         if stats.tokens:
             told = f"{stats.prompt_tokens:,} tokens read, {stats.completion_tokens:,} written"
             self._line(told if cost is None else f"{told}: {cost:.4g} by the price table")

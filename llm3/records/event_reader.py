@@ -53,7 +53,7 @@ _LINES: dict[str, tuple[type[Line], tuple[str, ...]]] = {
     "ReplyRead": (ReplyReadLine, ("ReplyReceived", "RunStarted", "AttemptEnded")),  # a search asks nobody
     "ActionTried": (ActionTriedLine, ("ReplyRead", "ActionTried")),
     "AttemptEnded": (AttemptEndedLine, ("ReplyRead", "ActionTried")),
-    "RunEnded": (RunEndedLine, ("AttemptEnded", "CallFailed")),
+    "RunEnded": (RunEndedLine, ("AttemptEnded", "CallFailed", "RunStarted")),  # the goal was reached at the start
 }
 """Of each kind of event: the form of its line, and what may come before it."""
 

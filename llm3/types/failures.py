@@ -15,7 +15,8 @@ class FailureKind(str, Enum):
     """Why an action, or a whole reply, cannot be carried out."""
 
     UNREACHABLE = "unreachable"
-    """No configuration of the robot reaches the goal (no inverse kinematics solution)."""
+    """Nothing takes the robot to the goal, whatever is tried: there is no inverse kinematics solution, or what the
+    failure's detail says, such as that the way is cut off."""
     GOAL_IN_COLLISION = "goal in collision"
     """Every configuration that reaches the goal touches something."""
     START_IN_COLLISION = "start in collision"

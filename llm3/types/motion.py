@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from llm3.errors import LLM3Error, PluginError
 from llm3.types.checks import finite
 from llm3.types.failures import Contact
-from llm3.types.state import Pose
+from llm3.types.state import ANGLE_DECIMALS, Pose
 from llm3.types.stats import Stats
 from llm3.types.trajectory import Trajectory
 
@@ -23,6 +23,10 @@ Mask = NDArray[np.bool_]
 """One verdict for each configuration, shape (N,)."""
 Waypoints = tuple[tuple[float, ...], ...]
 """Configurations, one after another, joined by straight lines in joint space."""
+
+
+GRID = 10.0**-ANGLE_DECIMALS * 1.001
+"""How far outside of its limits a joint value may be, as states are rounded."""
 
 
 def _no_contacts(_: Vector) -> tuple[Contact, ...]:
@@ -181,9 +185,9 @@ class MotionProblem:
     start: Vector
     """Shape (dof,)."""
     goals: Sequence[Goal]
-    """At least one, the preferred first. They are stored as `Goals`."""
+    """At least one, the preferred first, within the limits. They are stored as `Goals`."""
     low: Vector
-    """Lower joint limits, shape (dof,)."""
+    """Lower joint limits, shape (dof,). No planner leaves them."""
     high: Vector
     """Upper joint limits, shape (dof,)."""
     valid: Callable[[Vector], Mask]
@@ -212,15 +216,32 @@ class MotionProblem:
         finite("a start's configuration", start.ravel())
         if start.ndim != 1:
             raise ValueError(f"start must be one configuration of shape (dof,), not {start.shape}")
-        goals = self.goals if isinstance(self.goals, Goals) else Goals(self.goals)
-        for goal in (goals[0],) if goals is self.goals else self.goals:  # the others may not be made yet
-            if len(goal.configuration) != len(start):
-                raise ValueError(f"a goal has {len(goal.configuration)} joint values, the start {len(start)}")
-        object.__setattr__(self, "goals", goals)
         object.__setattr__(self, "start", start)
         for name in ("low", "high", "resolution"):  # a scalar stands for the same value in every joint
             values = np.broadcast_to(np.asarray(getattr(self, name), dtype=float), start.shape)
             object.__setattr__(self, name, values)
+        self._hold("the start", start)
+        given = self.goals
+        if isinstance(given, Goals):  # not all may be made yet
+            object.__setattr__(self, "goals", Goals(map(self._checked, given), lambda: given.stats))
+        else:
+            object.__setattr__(self, "goals", Goals([self._checked(goal) for goal in given]))
+
+    def _checked(self, goal: Goal) -> Goal:
+        if len(goal.configuration) != len(self.start):
+            raise ValueError(f"a goal has {len(goal.configuration)} joint values, the start {len(self.start)}")
+        self._hold("a goal", np.array(goal.configuration))
+        return goal
+
+    def _hold(self, what: str, configuration: Vector) -> None:
+        """See that the limits are kept, to within the rounding of states."""
+        outside = (configuration < self.low - GRID) | (configuration > self.high + GRID)
+        for joint in np.flatnonzero(outside & (self.low <= self.high))[:1]:  # of other limits `FreeSpace` tells
+            raise ValueError(
+                f"joint value {joint} of {what} is {configuration[joint]:.6g}, outside of its limits "
+                f"{self.low[joint]:.6g} to {self.high[joint]:.6g}: refuse an action that would need it, or widen `low` "
+                "and `high`"
+            )
 
     def motion(self, path: Path) -> Motion:
         """The whole motion of the action: the path, then the straight pieces of the goal it reached."""

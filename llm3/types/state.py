@@ -81,6 +81,8 @@ class State:
     """Whatever else the future depends on, such as ``{"door_open": True}``. Floats are rounded like lengths."""
 
     def __post_init__(self) -> None:
+        if self.held and self.held.object in self.poses:
+            raise ValueError(f"{self.held.object!r} is held, so it has no pose of its own: leave it out of `poses`")
         object.__setattr__(self, "poses", FrozenDict(sorted(self.poses.items())))
         object.__setattr__(
             self, "configuration", rounded(finite("a configuration", self.configuration), ANGLE_DECIMALS)

@@ -267,7 +267,7 @@ def test_a_half_turn_of_the_box_is_one(plan, name, defects):
     [
         lambda start, name: replace(start, poses={k: v for k, v in start.poses.items() if k != name}),
         lambda start, name: replace(start, poses={**start.poses, "puce_box": start.poses[name]}),
-        lambda start, name: replace(start, held=Held(name, Pose((0.0, 0.0, 0.0)))),
+        lambda start, name: replace(start, held=Held("puce_box", Pose((0.0, 0.0, 0.0)))),
     ],
 )
 def test_a_start_that_cannot_be_played(plan, name, defects, start):

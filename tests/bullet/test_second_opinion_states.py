@@ -62,8 +62,8 @@ def robot(descriptions):
             ["the state after it says where 'bax' is, and there is no such thing"],
         ),
         (
-            replace(DROP.state, held=Held("box", GRASP)),
-            ["the gripper holds nothing, and the state after it says box"],
+            replace(DROP.state, held=Held("bax", GRASP)),
+            ["the gripper holds nothing, and the state after it says bax"],
         ),
     ],
 )

@@ -143,7 +143,7 @@ def test_a_problem_without_sense_is_refused(changes, sentence):
 def test_the_motion_of_an_action_is_the_path_and_the_pieces_of_the_goal_it_reached():
     opened, closed = Event(EventKind.GRIPPER, opening=0.08), Event(EventKind.ATTACH, object="box")
     lift = Segment("lift", ((1.0, 1.0), (1.0, 2.0)), (closed,))
-    asked = problem(goals=(Goal((5, 5)), Goal((1, 1), (lift,))), label="approach", before=(opened,))
+    asked = problem(goals=(Goal((0, 1)), Goal((1, 1), (lift,))), label="approach", before=(opened,))
     motion = asked.motion(Path(np.array([[0, 0], [1, 1]]), goal_index=1))
     assert motion == Motion((Segment("approach", ((0.0, 0.0), (1.0, 1.0)), (opened,)), lift))
     assert motion.end == (1.0, 2.0)

@@ -7,7 +7,7 @@ from llm3 import LLM3Error, Prompt, solve
 from llm3.errors import BackendError, PluginError, UsageError
 from llm3.guarded import guarded
 from llm3.testing import ScriptedLLM
-from llm3.types import State
+from llm3.types import GoalStatus, State
 
 
 def run(env):
@@ -53,6 +53,18 @@ def test_an_exception_names_the_method_and_the_place(fault):
     line = Faulty.prepare.__code__.co_firstlineno + 1
     told = f"{type(fault).__name__}: {fault}"
     assert complaint(Faulty()) == f"Faulty.prepare raised {told} (test_guarded.py:{line})."
+
+
+def test_what_a_noun_refuses_is_told_of_the_plugins_line():
+    class Faulty(Line):
+        def goal(self, state):
+            return GoalStatus(True, ("the robot is late",))
+
+    line = Faulty.goal.__code__.co_firstlineno + 1
+    assert complaint(Faulty()) == (
+        "Faulty.goal raised ValueError: a goal is either achieved or has unmet parts: name each of them in `unmet` "
+        f"(test_guarded.py:{line})."
+    )
 
 
 def test_errors_of_the_framework_and_interrupts_pass_through():

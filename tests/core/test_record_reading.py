@@ -8,13 +8,13 @@ from tempfile import TemporaryDirectory
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from line_world import FINISH, Gamble, LineInstance, TickingClock, go, line_registry, reply, take
+from line_world import FINISH, Gamble, Line, LineInstance, TickingClock, go, line_registry, reply, take
 from test_records import SOLVES, make_run, record
 
 from llm3.assembly import RunConfig, Search, assemble
 from llm3.errors import BackendError, InputError
 from llm3.records import Recorder, read_events, read_exchanges, read_run
-from llm3.types import CallFailed, Completion, PromptSent, ReplyReceived, Stats
+from llm3.types import CallFailed, Completion, PromptSent, ReplyReceived, RunEnded, RunStarted, Stats
 
 actions = st.one_of(
     st.sampled_from([1.0, 2.0, 5.0, 8.0, FINISH]).map(go),
@@ -103,6 +103,16 @@ def test_a_solved_run_and_one_whose_call_failed_read_back_equal(tmp_path):
     assert isinstance(told[-1], CallFailed)
 
 
+def test_a_run_that_had_nothing_to_do_reads_back_equal(tmp_path):
+    told = []
+    run = make_run([], env=Line(start=FINISH))
+    with Recorder(tmp_path, run, TickingClock()) as recorder:
+        run.solve(lambda event: (recorder(event), told.append(event)))
+    assert [type(event) for event in told] == [RunStarted, RunEnded]
+    assert read(tmp_path) == told
+    assert list(read_exchanges(tmp_path)) == []
+
+
 def test_the_plan_of_a_solved_run_is_known_also_without_its_file(tmp_path):
     told = happened(tmp_path, SOLVES)
     (tmp_path / "plan.json").unlink()
@@ -185,7 +195,7 @@ def replaced(number, old, new):
         (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (byte 10)"),
         (lambda lines: lines[:4] + lines[5:], "line 5: ActionTried cannot follow ReplyReceived"),
         (lambda lines: lines[:1] + lines[2:], "line 2: PromptSent cannot follow the header"),
-        (lambda lines: [*lines[:3], "", *lines[3:]], "line 4: Input data was truncated"),
+        (lambda lines: [*lines[:3], "", *lines[3:]], "line 4: empty"),
     ],
 )  # fmt: skip
 def test_any_other_damage_is_named_with_its_line(tmp_path, damage, wrong):

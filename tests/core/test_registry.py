@@ -174,10 +174,10 @@ def test_without_any_entry_point_a_line_says_how_to_install():
 BROKEN = {
     "an import that fails": (
         "import no_such_package",
-        "ModuleNotFoundError: No module named 'no_such_package'",
+        "ModuleNotFoundError: No module named 'no_such_package' (scratch_bad.py:1)",
     ),
-    "an import that raises anything": ("raise RuntimeError('bad\\nday')", "RuntimeError: bad day"),
-    "an import that ends the program": ("import sys; sys.exit('bye')", "SystemExit: bye"),
+    "an import that raises anything": ("raise RuntimeError('bad\\nday')", "RuntimeError: bad day (scratch_bad.py:1)"),
+    "an import that ends the program": ("import sys; sys.exit('bye')", "SystemExit: bye (scratch_bad.py:1)"),
     "a syntax error": ("def", "SyntaxError: invalid syntax (scratch_bad.py, line 1)"),
     "a misspelt hook": (
         "from llm3 import hookimpl\n@hookimpl\ndef llm3_domain(): return {}",
@@ -209,7 +209,7 @@ BROKEN = {
     ),
     "a hook that fails": (
         "from llm3 import hookimpl\n@hookimpl\ndef llm3_domains(): return 1 / 0",
-        "ZeroDivisionError: division by zero",
+        "ZeroDivisionError: division by zero (scratch_bad.py:3)",
     ),
     "a name that is taken": (
         BRINGS_A_PLANNER + "@hookimpl\ndef llm3_domains(): return {'kitchen': list}",
@@ -330,10 +330,11 @@ def test_an_unknown_name_is_answered_with_close_matches_and_the_known_names(kind
 
 def test_and_with_the_plugins_that_failed_to_load(plugin):
     registry = Registry.discover([plugin("arm", "import no_such_simulator"), plugin("world", BRINGS_A_DOMAIN)])
-    assert complaint(registry.domain, "arm", error=UnknownName) == (
-        "unknown domain 'arm'. Known: corridor, kitchen. "
-        "Failed to load: arm (ModuleNotFoundError: No module named 'no_such_simulator')."
+    reason = "ModuleNotFoundError: No module named 'no_such_simulator' (scratch_arm.py:1)"
+    assert complaint(registry.domain, "leg", error=UnknownName) == (
+        f"unknown domain 'leg'. Known: corridor, kitchen. Failed to load: arm ({reason})."
     )
+    assert complaint(registry.domain, "arm") == f"plugin arm cannot be loaded: {reason}."
 
 
 @pytest.mark.parametrize(

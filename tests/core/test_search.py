@@ -202,8 +202,10 @@ def test_a_mistake_of_the_world_is_told_as_its_own():
 @given(limit=st.integers(1, 60), seed=SEEDS)
 def test_no_more_motion_calls_are_made_than_allowed(limit, seed):
     result = searched(seed=seed, budget=Budget(max_motion_calls=limit))
-    assert (result.stop, result.stats.motion_calls, result.plan) == ("motions", limit, ())
-    assert result.goal.unmet == ("the robot is not at the finish",)
+    assert result.stats.motion_calls <= limit
+    if not result.solved:  # a sample may hit the finish by chance
+        assert (result.stop, result.stats.motion_calls, result.plan) == ("motions", limit, ())
+        assert result.goal.unmet == ("the robot is not at the finish",)
 
 
 def test_time_is_a_limit_as_well():

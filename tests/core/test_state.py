@@ -142,3 +142,9 @@ def test_facts_that_are_floats_are_rounded_like_lengths_and_others_are_kept():
     assert state.facts == {"level": 0.1235, "drift": 0.0, "open": True, "count": 3, "place": "sink"}
     assert str(state.facts["drift"]) == "0.0"
     assert state.facts["open"] is True
+
+
+def test_what_is_held_stands_nowhere():
+    with pytest.raises(ValueError) as caught:
+        State(poses={"lid": Pose((0, 0, 0))}, held=Held("lid", Pose((0, 0, 0.1))))
+    assert str(caught.value) == "'lid' is held, so it has no pose of its own: leave it out of `poses`"

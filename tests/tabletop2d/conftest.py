@@ -3,6 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
+from in_process import command, cwd, plugins
 
 from llm3.assembly import RunConfig, assemble
 from llm3.records import PlanFile
@@ -10,6 +11,8 @@ from llm3.records.plan import plan_file
 from llm3.registry import Registry
 from llm3.types import Result, Verification
 from llm3.verification import verify
+
+__all__ = ["command", "cwd", "plugins"]
 
 Solve = Callable[..., tuple[Result, PlanFile, Verification | None]]
 

@@ -117,7 +117,9 @@ def a_wrong_state(plan: Plan) -> Plan:
 
 
 def a_wrong_hold(plan: Plan) -> Plan:
-    return with_state(plan, 0, replace(plan[0].state, held=Held("grey_box", Pose((0.0, 0.0, 0.0)))))
+    state = plan[0].state
+    poses = {name: pose for name, pose in state.poses.items() if name != "grey_box"}
+    return with_state(plan, 0, replace(state, poses=poses, held=Held("grey_box", Pose((0.0, 0.0, 0.0)))))
 
 
 def a_wrong_robot(plan: Plan) -> Plan:

@@ -11,6 +11,7 @@ What the *robot* cannot do is never an exception: it is a :class:`llm3.types.Fai
     │   ├── MissingCapability the domain lacks what the command needs
     │   └── OutputExists      the output folder would be overwritten
     ├── InputError            a file or a value from outside does not have the documented form
+    │   └── InstanceError     an instance makes no sense in the world that is made of it
     ├── PluginError           a plugin is broken, or two plugins claim one name
     ├── MissingDependency     a package that is not installed is needed for what was asked
     └── BackendError          the language model cannot be reached or refuses to answer
@@ -73,6 +74,13 @@ class OutputExists(UsageError):
 
 class InputError(LLM3Error):
     """A file or a value from outside does not have the documented form."""
+
+
+class InstanceError(InputError):
+    """An instance has the right form, but no world can be made of it: things start in one another, say.
+
+    A domain raises it in `Domain.make`; whoever knows which file the instance comes from says that first.
+    """
 
 
 class PluginError(LLM3Error):

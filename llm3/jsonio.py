@@ -56,6 +56,8 @@ def loads(text: str | bytes, type_: type[T], source: str) -> T:
     """
     try:
         text = text.decode("utf-8-sig") if isinstance(text, bytes) else text
+        if not text.strip():
+            raise InputError(f"{source}: empty")
         value = msgspec.json.decode(text, type=type_)
         json.loads(text, object_pairs_hook=_without_doubles)
         _set_defaults(value)

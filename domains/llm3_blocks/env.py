@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from llm3.errors import InstanceError
 from llm3.types import Action, ActionSchema, Entity, Failure, GoalStatus, MotionProblem, State
 from llm3_blocks.actions import PICK, PLACE, STACK
 from llm3_blocks.goal import goal_status
@@ -26,11 +27,13 @@ class BlocksEnv(TabletopEnv):
             workcell: The robot and its simulators; the Env owns them from now on.
 
         Raises:
-            InputError: Something stands where the arm starts.
+            InputError: It cannot begin, or not with this robot; see `Tabletop`. Or a tower of the goal is too high.
         """
         self._instance = instance
+        _check_heights(instance, workcell.inverse.highest)
         blocks = {box.name: box for tower in instance.towers for box in tower.standing(instance.sizes)}
-        super().__init__(Tabletop(workcell, (table(),), (blocks[block.name] for block in instance.blocks)))
+        boxes = (blocks[block.name] for block in instance.blocks)
+        super().__init__(Tabletop(workcell, (table(),), boxes, to_move=instance.to_move))
 
     @property
     def task(self) -> str:
@@ -59,3 +62,14 @@ class BlocksEnv(TabletopEnv):
     def goal(self, state: State) -> GoalStatus:
         """Every block of the goal rests where it belongs."""
         return goal_status(self._instance, state)
+
+
+def _check_heights(instance: BlocksInstance, highest: float) -> None:
+    heights = instance.heights
+    for name in instance.to_move:
+        height = heights.get(name, 0.0)
+        if height > highest:
+            raise InstanceError(
+                f"the goal has {name} {height:.2f} m above the table, and the arm puts nothing down higher than "
+                f"{highest:.2f} m"
+            )

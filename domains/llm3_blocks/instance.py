@@ -104,6 +104,28 @@ class BlocksInstance:
             for name, below in zip(tower.blocks, (TABLE, *tower.blocks), strict=False)
         }
 
+    @property
+    def to_move(self) -> tuple[str, ...]:
+        """The names of the blocks that cannot stay where they start, or stand on such."""
+        below = {on.block: on.below for on in self.goal}
+        found: list[str] = []
+        for tower in self.towers:
+            start = dict(zip(tower.blocks, (TABLE, *tower.blocks), strict=False))
+            wrong = [below.get(name, start[name]) != start[name] for name in tower.blocks]
+            found += tower.blocks[wrong.index(True) :] if any(wrong) else ()
+        return tuple(found)
+
+    @property
+    def heights(self) -> dict[str, float]:
+        """How high the middle of each block of the goal comes at least, by name."""
+        below, sizes = {on.block: on.below for on in self.goal}, self.sizes
+
+        def bottom(name: str) -> float:
+            under = below.get(name, TABLE)
+            return 0.0 if under == TABLE else bottom(under) + sizes[under][2]
+
+        return {name: bottom(name) + sizes[name][2] / 2 for name in below}
+
     def _check_towers(self, names: list[str]) -> None:
         standing = [name for tower in self.towers for name in tower.blocks]
         _refuse_unknown("a tower holds", standing, names)

@@ -28,12 +28,14 @@ class BoxpackEnv(TabletopEnv):
             wall_height: Height of the basket's walls in metres; 0 for none.
 
         Raises:
-            InputError: Something stands where the arm starts.
+            InputError: It cannot begin, or not with this robot; see `Tabletop`.
         """
         self._instance, self._wall_height = instance, wall_height
         floors = (instance.basket.floor,)
         boxes = (box.standing(support_height(floors, box.footprint)) for box in instance.boxes)
-        super().__init__(Tabletop(workcell, furniture(instance.basket, wall_height), boxes, floors))
+        areas = {"basket": instance.basket.area}
+        things = furniture(instance.basket, wall_height)
+        super().__init__(Tabletop(workcell, things, boxes, floors, areas, instance.to_move))
 
     @property
     def task(self) -> str:

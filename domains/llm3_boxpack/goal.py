@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from llm3.types import GoalStatus, Pose, State
-from llm3_boxpack.instance import BoxpackInstance, BoxSpec
+from llm3_boxpack.instance import TOLERANCE, BoxpackInstance, BoxSpec
 from llm3_bullet.tabletop.stance import shadow
-
-TOLERANCE = 0.001
-"""A footprint may reach out of the basket by this much, in metres: what a release and rounding can cost."""
 
 
 def goal_status(instance: BoxpackInstance, state: State) -> GoalStatus:

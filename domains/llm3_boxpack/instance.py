@@ -13,6 +13,8 @@ from llm3_bullet.tabletop.table import ON_TABLE, Surface, is_on_table
 TRAY_THICKNESS = 0.01
 """Thickness in metres of the plate that is the basket's floor."""
 WALLS = ("basket_wall_front", "basket_wall_back", "basket_wall_right", "basket_wall_left")
+TOLERANCE = 0.001
+"""A footprint may reach out of the basket by this much, in metres: what a release and rounding can cost."""
 MOST_BOXES = 100
 """A plan of more than 200 actions would not be read, and each box takes two."""
 
@@ -59,11 +61,29 @@ class BoxpackInstance:
     def __post_init__(self) -> None:
         if not 1 <= len(self.boxes) <= MOST_BOXES:
             raise ValueError(f"there must be 1 to {MOST_BOXES} boxes, not {len(self.boxes)}")
-        for index, box in enumerate(self.boxes):
+        for box in self.boxes:
             if self.basket.area.overlaps(box.footprint) and self.basket.area.overhang(box.footprint) > 0:
                 raise ValueError(f"{box.name} starts on the basket's edge; it must be all inside or all outside")
-            for other in self.boxes[:index]:
-                if box.name == other.name:
-                    raise ValueError(f"two boxes are called {box.name}")
-                if box.footprint.overlaps(other.footprint):
-                    raise ValueError(f"{other.name} and {box.name} start in one another")
+        box_spec.check_boxes(self.boxes)
+        self._check_room()
+
+    @property
+    def to_move(self) -> tuple[str, ...]:
+        """The names of the boxes that start outside of the basket."""
+        return tuple(box.name for box in self.boxes if not self.basket.area.overlaps(box.footprint))
+
+    def _check_room(self) -> None:
+        basket = self.basket.area
+        measures = f"{basket.size[0]:g} by {basket.size[1]:g} m"
+        for box in self.boxes:
+            x, y = box.footprint.size
+            if not basket.has_room_for((x, y), TOLERANCE):
+                raise ValueError(
+                    f"{box.name} covers {x:g} by {y:g} m, which does not fit into the basket of {measures}"
+                )
+        covered = sum(box.footprint.area for box in self.boxes)
+        if covered > (basket.size[0] + 2 * TOLERANCE) * (basket.size[1] + 2 * TOLERANCE):
+            raise ValueError(
+                f"the boxes cover {covered:.4g} m² together, which does not fit into the basket of {measures}, "
+                f"{basket.area:.4g} m²"
+            )

@@ -50,13 +50,14 @@ class KitchenEnv(TabletopEnv):
             workcell: The robot and its simulators; the Env owns them from now on.
 
         Raises:
-            InputError: Something stands where the arm starts.
+            InputError: It cannot begin, or not with this robot; see `Tabletop`.
         """
         self._instance = instance
         self._places = {place.name: place for place in instance.places}
         high = surfaces(instance.places)
         things = (thing.standing(support_height(high, thing.footprint)) for thing in instance.things)
-        super().__init__(Tabletop(workcell, furniture(instance.places), things, high))
+        areas = {place.name: place.area for place in instance.places}
+        super().__init__(Tabletop(workcell, furniture(instance.places), things, high, areas, instance.to_move))
         self._in_hand = Manipulation(self.tabletop.sizes, (), workcell.gripper).in_hand
 
     @property

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from llm3.types import ITSELF
-from llm3_bullet.tabletop.box_spec import BoxSpec
+from llm3_bullet.tabletop.box_spec import BoxSpec, check_boxes
 from llm3_bullet.tabletop.rectangles import Rectangle
 from llm3_bullet.tabletop.table import ON_TABLE, TABLE, is_on_table
 
@@ -82,6 +82,12 @@ class FoodSpec(BoxSpec):
     washed: bool = False
     heated: bool = False
 
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The kinds of places that it has to be brought to, in this order."""
+        washed, heated = self.washed or self.heated, self.heated
+        return (*(("sink",) if washed else ()), *(("stove",) if heated else ()), "serving")
+
 
 @dataclass(frozen=True)
 class ClutterSpec(BoxSpec):
@@ -107,6 +113,16 @@ class KitchenInstance:
         self._check_names()
         self._check_places()
         self._check_things()
+        self._check_room()
+
+    @property
+    def to_move(self) -> tuple[str, ...]:
+        """The names of the foods that do not start where all is done that they need."""
+        return tuple(food.name for food in self.foods if not self._is_done_at_start(food))
+
+    def _is_done_at_start(self, food: FoodSpec) -> bool:
+        place = self.place_of(food.footprint)
+        return place is not None and food.needs == (place.kind,)
 
     @property
     def things(self) -> tuple[BoxSpec, ...]:
@@ -129,8 +145,7 @@ class KitchenInstance:
                 raise ValueError(f"two things or places are called {name}")
 
     def _check_places(self) -> None:
-        wanted = {"serving"} | {"sink" for food in self.foods if food.washed or food.heated}
-        wanted |= {"stove" for food in self.foods if food.heated}
+        wanted = {kind for food in self.foods for kind in food.needs}
         for kind in KINDS:
             if kind in wanted and not self.of_kind(kind):
                 raise ValueError(f"there must be a place of the kind {kind!r}")
@@ -140,12 +155,27 @@ class KitchenInstance:
                     raise ValueError(f"{other.name} and {place.name} overlap")
 
     def _check_things(self) -> None:
-        for index, thing in enumerate(self.things):
+        for thing in self.things:
             if self.place_of(thing.footprint) is None:
                 raise ValueError(
                     f"{thing.name} must start with its whole footprint in one of the places: "
                     f"{', '.join(place.name for place in self.places)}"
                 )
-            for other in self.things[:index]:
-                if thing.footprint.overlaps(other.footprint):
-                    raise ValueError(f"{other.name} and {thing.name} start in one another")
+        check_boxes(self.things)
+
+    def _check_room(self) -> None:
+        for food in self.foods:
+            x, y = food.footprint.size
+            for kind in food.needs:
+                places = self.of_kind(kind)
+                if not any(place.area.has_room_for((x, y)) for place in places):
+                    there = ", ".join(f"{place.name} {place.size[0]:g} by {place.size[1]:g} m" for place in places)
+                    raise ValueError(
+                        f"{food.name} fits into no place of the kind {kind!r}: it covers {x:g} by {y:g} m, and {there}"
+                    )
+        covered = sum(food.footprint.area for food in self.foods)
+        room = sum(place.area.area for place in self.of_kind("serving"))
+        if covered > room:
+            raise ValueError(
+                f"the food covers {covered:.4g} m² together, and the places of the kind 'serving' only {room:.4g} m²"
+            )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from llm3.errors import InputError
+from llm3.errors import InstanceError
 from llm3.interfaces import Env, Joint
 from llm3.types import (
     Action,
@@ -44,14 +44,14 @@ class TabletopEnv(Env):
             radius: The robot's, in metres; 0 makes it a point.
 
         Raises:
-            InputError: Things start in one another, or in the robot.
+            InstanceError: Things start in one another, or in the robot.
         """
         self._instance, self._radius = instance, radius
         self._scene = Scene(instance, radius)
         self._manipulation = Manipulation(self._scene, instance.room)
         fault = start_fault(self._scene, self.reset())
         if fault:
-            raise InputError(fault)
+            raise InstanceError(fault)
 
     @property
     def task(self) -> str:

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from math import cos, sin
-
 from llm3.types import GoalStatus, Pose, State
-from llm3_tabletop2d.instance import ObjectSpec, RectangleSpec, TabletopInstance
+from llm3_tabletop2d.instance import TOLERANCE, ObjectSpec, RectangleSpec, TabletopInstance
 from llm3_tabletop2d.scene import turn_of
-
-TOLERANCE = 0.001
-"""An outline may reach out of its region by this much, in metres."""
 
 
 def goal_status(instance: TabletopInstance, state: State) -> GoalStatus:
@@ -23,18 +18,10 @@ def goal_status(instance: TabletopInstance, state: State) -> GoalStatus:
     return GoalStatus(not missing, missing)
 
 
-def extent(item: ObjectSpec, theta: float) -> tuple[float, float]:
-    """How far an object reaches along x and y, from end to end, in metres."""
-    if item.shape == "disc":
-        return item.size
-    c, s, (a, b) = abs(cos(theta)), abs(sin(theta)), item.size
-    return c * a + s * b, s * a + c * b
-
-
 def _unmet(item: ObjectSpec, region: RectangleSpec, pose: Pose | None) -> str:
     if pose is None:
         return f"{item.name} is still held"
-    reach = extent(item, turn_of(pose))
+    reach = item.extent(turn_of(pose))
     beyond = max(
         abs(p - center) + (length - side) / 2
         for p, center, length, side in zip(pose.position, region.center, reach, region.size, strict=False)

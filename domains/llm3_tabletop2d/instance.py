@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import hypot, isfinite
+from math import cos, hypot, isfinite, sin
 from typing import Literal
 
 from llm3.types import ITSELF
@@ -16,6 +16,8 @@ RESERVED = ("robot", "room", OUTER_WALL, ITSELF)
 """Names that prompts and failures use for what is no object, no wall and no region."""
 MOST = 50
 """Objects, walls and regions, each, at most: a prompt tells all of them."""
+TOLERANCE = 0.001
+"""An outline may reach out of its region by this much, in metres."""
 ROOM_SIDE = (0.2, 10.0)
 SIDE = (0.01, 5.0)
 """Sides of objects, walls and regions, in metres."""
@@ -48,6 +50,13 @@ class ObjectSpec:
     def outer_radius(self) -> float:
         """Of the smallest circle around its centre that it lies in, in metres."""
         return self.size[0] / 2 if self.shape == "disc" else hypot(*self.size) / 2
+
+    def extent(self, theta: float) -> Pair:
+        """How far it reaches along x and y, from end to end, when it is turned so far."""
+        if self.shape == "disc":
+            return self.size
+        c, s, (a, b) = abs(cos(theta)), abs(sin(theta)), self.size
+        return c * a + s * b, s * a + c * b
 
 
 @dataclass(frozen=True)
@@ -118,11 +127,21 @@ class TabletopInstance:
         for region in self.regions:
             if any(a < 0 or b > side for (a, b), side in zip(region.ranges, self.room, strict=True)):
                 raise ValueError(f"{region.name} reaches out of the room of {self.room[0]:g} by {self.room[1]:g} m")
+        for item in self.objects:
+            self._check_room(item)
 
     def region_of(self, name: str) -> RectangleSpec | None:
         """Where an object belongs; None for one that may stand anywhere."""
         region = next((goal.region for goal in self.goals if goal.object == name), None)
         return next((r for r in self.regions if r.name == region), None)
+
+    def _check_room(self, item: ObjectSpec) -> None:
+        region, (x, y) = self.region_of(item.name), item.extent(item.theta)
+        if region and (x > region.size[0] + 2 * TOLERANCE or y > region.size[1] + 2 * TOLERANCE):
+            raise ValueError(
+                f"{item.name} reaches {x:.3g} by {y:.3g} m along x and y, which does not fit into {region.name} of "
+                f"{region.size[0]:g} by {region.size[1]:g} m"
+            )
 
 
 def _check_name(kind: str, name: str) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from llm3.interfaces import Regions
 from llm3_tabletop2d.actions import PLACE, PUSH, is_taken
-from llm3_tabletop2d.goal import extent
 from llm3_tabletop2d.instance import Pair, TabletopInstance
 
 
@@ -20,7 +19,7 @@ def regions(instance: TabletopInstance) -> Regions:
         for action in (PLACE, PUSH):
             home = action == PLACE or not is_taken(instance, item)
             area = region.ranges if region and home else room
-            for axis, span, length in zip("xy", area, extent(item, item.theta), strict=True):
+            for axis, span, length in zip("xy", area, item.extent(item.theta), strict=True):
                 ranges[action, (item.name,), axis] = _inset(span, length)
     return ranges
 

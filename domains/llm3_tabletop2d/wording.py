@@ -13,8 +13,9 @@ def task_text(radius: float) -> str:
     robot = f"a disc of radius {radius:g} m" if radius else "a point"
     return (
         "A robot moves things on a table, seen from above: x points to the right, y points up. Lengths are in metres, "
-        f"angles in radians. The robot is {robot}, and moves in any direction without turning. Walls are fixed. "
-        "Objects are discs and boxes. They keep their orientation, because the robot does not turn.\n"
+        f"angles in radians. The robot is {robot}, and moves in any direction without turning. Walls are fixed; "
+        "outer_wall is around the room. Objects are discs and boxes. They keep their orientation, because the robot "
+        "does not turn.\n"
         "The goal: every object that belongs in a region lies in it with its whole outline, and is not held. The other "
         "objects may be anywhere, and may be moved out of the way.\n"
         "The robot stands beside an object to take hold of it, on the side that the angle of the pick names, and the "

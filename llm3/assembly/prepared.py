@@ -45,6 +45,8 @@ class Prepared:
     timer: TrajectoryTimer | None
     plugins: Mapping[str, str]
     """Where each plugin that the run uses comes from, such as ``"planner/birrt": "birrt (llm3 0.1.0)"``."""
+    source: str = ""
+    """Where the instance comes from, such as its file, for messages about it."""
 
     @property
     def language_model(self) -> bool:
@@ -68,7 +70,7 @@ class Prepared:
             LLM3Error: The world cannot be made; then all is closed.
         """
         try:
-            env = open_world(self.domain, self.instance, self.options, window, spare)
+            env = open_world(self.domain, self.instance, self.options, window, spare, self.source)
         except BaseException:
             self.close()
             raise
@@ -88,7 +90,9 @@ class Prepared:
         self.close()
 
 
-def assemble(registry: Registry, config: RunConfig, instance: Any = None, window: bool = False) -> Run:
+def assemble(
+    registry: Registry, config: RunConfig, instance: Any = None, window: bool = False, source: str = ""
+) -> Run:
     """Make everything that a run needs, the world as well: :func:`prepare`, and :meth:`Prepared.open`.
 
     Args:
@@ -96,20 +100,22 @@ def assemble(registry: Registry, config: RunConfig, instance: Any = None, window
         config: What the user asks for.
         instance: The problem, where it does not come from setting and seed.
         window: Whether to show the world in the domain's window.
+        source: Where the instance comes from, such as its file, for messages about it.
 
     Raises:
         LLM3Error: A name is unknown, or the domain lacks what the strategy or the backend needs.
     """
-    return prepare(registry, config, instance).open(window)
+    return prepare(registry, config, instance, source).open(window)
 
 
-def prepare(registry: Registry, config: RunConfig, instance: Any = None) -> Prepared:
+def prepare(registry: Registry, config: RunConfig, instance: Any = None, source: str = "") -> Prepared:
     """Look everything up that a run needs, and make all of it but the world.
 
     Args:
         registry: Where the names are looked up.
         config: What the user asks for.
         instance: The problem, where it does not come from setting and seed.
+        source: Where the instance comes from, such as its file, for messages about it.
 
     Raises:
         LLM3Error: A name is unknown, or the domain lacks what the strategy or the backend needs.
@@ -139,7 +145,7 @@ def prepare(registry: Registry, config: RunConfig, instance: Any = None) -> Prep
     except BaseException:
         solver.close()
         raise
-    return Prepared(config, domain, instance, options, solver, planner, timer, _origins(registry, config))
+    return Prepared(config, domain, instance, options, solver, planner, timer, _origins(registry, config), source)
 
 
 def _backend(registry: Registry, config: RunConfig, domain: Domain, instance: Any) -> LLMBackend:

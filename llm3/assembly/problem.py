@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Any
 
 from llm3.assembly.choices import settle_options
-from llm3.errors import MissingCapability
+from llm3.errors import InstanceError, MissingCapability
 from llm3.guarded import guarded
 from llm3.interfaces import Domain, Env, Options
 
@@ -43,27 +43,54 @@ class Problem:
         self.close()
 
 
-def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False) -> Problem:
+def open_problem(
+    domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False, source: str = ""
+) -> Problem:
     """Make the world of an instance, and show it in a window if asked.
 
     Its options are those that a record keeps: `Domain.self_contained`.
 
+    Args:
+        domain: What it is a problem of.
+        instance: The problem.
+        options: Those that differ from their defaults.
+        window: Whether to show the world in the domain's window.
+        source: Where the instance comes from, such as its file, for messages about it.
+
     Raises:
         UnknownName: The domain has no such option.
         MissingCapability: The domain has no window.
+        InstanceError: No world can be made of the instance.
     """
     chosen = settle_options(domain, options)
-    return Problem(domain, instance, chosen, open_world(domain, instance, chosen, window))
+    return Problem(domain, instance, chosen, open_world(domain, instance, chosen, window, source=source))
 
 
-def open_world(domain: Domain, instance: Any, options: Options, window: bool = False, spare: Env | None = None) -> Env:
+def open_world(
+    domain: Domain,
+    instance: Any,
+    options: Options,
+    window: bool = False,
+    spare: Env | None = None,
+    source: str = "",
+) -> Env:
     """A world for an instance, in a window if asked, or out of a spare one where the domain can do that.
 
     The spare world is used up in any case.
 
     Raises:
         MissingCapability: The domain has no window.
+        InstanceError: No world can be made of the instance; the source, if there is one, comes first.
     """
+    try:
+        return _world(domain, instance, options, window, spare)
+    except InstanceError as error:
+        if not source:
+            raise
+        raise InstanceError(f"{source}: {error}") from error
+
+
+def _world(domain: Domain, instance: Any, options: Options, window: bool, spare: Env | None) -> Env:
     remade = None if spare is None else _remade(domain, instance, options, window, spare)
     if remade is not None:
         return remade

@@ -35,7 +35,8 @@ def assembled(registry: Registry, arguments: Namespace) -> Run:
         _refuse_contradictions(arguments, given, read_run(folder), folder)
         return repeat(registry, folder, arguments.gui)
     domain = chosen_domain(registry, arguments)
-    return assemble(registry, RunConfig(**given), loaded_instance(domain, arguments), arguments.gui)
+    instance, source = loaded_instance(domain, arguments), str(arguments.instance or "")
+    return assemble(registry, RunConfig(**given), instance, arguments.gui, source)
 
 
 def _given(arguments: Namespace) -> dict[str, Any]:

@@ -39,7 +39,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
     if instance is None:
         instance = choose_instance(domain, arguments.setting, arguments.seed)
     skeleton = given_skeleton(domain, instance, strategy, arguments.strategy)
-    with open_problem(domain, instance, chosen_options(arguments)) as problem:
+    source = str(arguments.instance or "")
+    with open_problem(domain, instance, chosen_options(arguments), source=source) as problem:
         env = problem.env
         messages = prompt.render(context_of(env, env.reset(), skeleton=skeleton))
     text = dumps(messages) if arguments.json else "\n\n".join(f"--- {m.role} ---\n\n{m.content}" for m in messages)

@@ -55,6 +55,9 @@ class Domain(ABC):
         Args:
             instance: An `instance_type`.
             options: A value for every one of the domain's `options`, checked against its choices.
+
+        Raises:
+            InstanceError: No world can be made of the instance, such as where things start in one another.
         """
 
     def self_contained(self, options: Options) -> Options:

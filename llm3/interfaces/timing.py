@@ -15,7 +15,8 @@ class TrajectoryTimer(ABC):
         """Put times to a path.
 
         The path between the waypoints was checked for collision, so a timer may leave it by no more than what is
-        small against the distance that planners keep from obstacles.
+        small against the distance that planners keep from obstacles. No joint may leave the range that it has at the
+        waypoints: what lies beyond may be past the end of its travel.
 
         Args:
             waypoints: Shape (N, dof), N at least 1, joined by straight lines in joint space. Some may repeat.

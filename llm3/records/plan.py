@@ -82,8 +82,9 @@ def open_plan(registry: Registry, plan: PlanFile) -> Problem:
         InputError: The instance is none of the domain's, or the plan is for another robot or does not fit itself.
     """
     domain = registry.domain(plan.domain)
-    instance = loads(dumps(plan.instance), domain.instance_type, "the plan's instance")
-    problem = open_problem(domain, instance, plan.options)
+    source = "the plan's instance"
+    instance = loads(dumps(plan.instance), domain.instance_type, source)
+    problem = open_problem(domain, instance, plan.options, source=source)
     try:
         _check_joints(plan, problem.env.joints)
     except BaseException:

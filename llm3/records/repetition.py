@@ -31,8 +31,9 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
     """
     recorded = read_run(folder)
     domain = registry.domain(recorded.config.domain)
-    instance = loads(dumps(recorded.instance), domain.instance_type, f"{folder / 'run.json'}, instance")
-    return assemble(registry, _configuration(recorded, folder), instance, window)
+    source = f"{folder / 'run.json'}, instance"
+    instance = loads(dumps(recorded.instance), domain.instance_type, source)
+    return assemble(registry, _configuration(recorded, folder), instance, window, source)
 
 
 def _configuration(recorded: RunFile, folder: Path) -> RunConfig:

@@ -33,6 +33,8 @@ class ArmLength:
         self._last = np.linalg.inv(frames[model.tool])[:3] @ np.append(points[-1], 1.0)  # in the tool frame
         travel = (model.high - model.low)[slides].sum()
         self._length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() + travel)
+        self.highest = float(self._first[2] + self._length + self._last[2])
+        """The tool is never higher than this while it points straight down, in metres."""
 
     def too_short(self, targets: Array, position_tolerance: float, rotation_tolerance: float) -> NDArray[np.bool_]:
         """For which tool poses (B, 4, 4) the arm is certainly too short: (B,). The others may be out of reach as well.

@@ -82,7 +82,7 @@ class InverseKinematics:
 
     def solve_many(self, targets: Array, rng: np.random.Generator, near: Array | None = None) -> tuple[IKResult, ...]:
         """`solve` for several targets (B, 4, 4) at once, which costs less than one after another."""
-        too_far = self._length.too_short(targets, POSITION_TOLERANCE, ROTATION_TOLERANCE)
+        too_far = self.too_far(targets)
         results: dict[int, IKResult] = {}
         for attempt, among in ((_FEW, ~too_far), (_MANY, ~too_far), (_CLOSEST, too_far)):
             open_ = [b for b in np.flatnonzero(among).tolist() if b not in results or not results[b].reached]
@@ -90,6 +90,15 @@ class InverseKinematics:
                 found = self._attempt(targets[open_], self._starts(targets[open_], attempt, rng, near), attempt, near)
                 results.update({b: _better(results.get(b), r) for b, r in zip(open_, found, strict=True)})
         return tuple(results[b] for b in range(len(targets)))
+
+    def too_far(self, targets: Array) -> NDArray[np.bool_]:
+        """For which targets (B, 4, 4) the arm is certainly too short, (B,); the others may be out of reach as well."""
+        return self._length.too_short(targets, POSITION_TOLERANCE, ROTATION_TOLERANCE)
+
+    @property
+    def highest(self) -> float:
+        """The tool is certainly never higher than this while it points straight down, in metres."""
+        return self._length.highest
 
     def _starts(self, targets: Array, attempt: _Round, rng: np.random.Generator, near: Array | None) -> Array:
         """Configurations to start from, (B, S, dof)."""

@@ -56,6 +56,8 @@ def curved(waypoints: Array, limits: Limits) -> Piece | None:
     positions = way(grid)
     positions[np.searchsorted(grid, knots)] = waypoints  # to the last digit
     piece = Piece(np.concatenate([[0.0], np.cumsum(spans)]), positions, way(grid, 1) * speeds[:, None] / unit)
+    # A joint that rests at the end of its range must not swing beyond it, as splines do.
+    piece = piece.within(waypoints.min(axis=0), waypoints.max(axis=0))
     return piece if _deviation(piece, waypoints, edges) <= TOLERANCE else None
 
 

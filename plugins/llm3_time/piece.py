@@ -41,6 +41,23 @@ class Piece(NamedTuple):
         u = fractions[:, None]
         return np.asarray(first + u * (way + (1 - u) * ((1 - u) * begin - u * end)))
 
+    def within(self, low: Array, high: Array) -> Piece:
+        """The nearest such motion at the same times by which no joint ever leaves a range.
+
+        A cubic stays in the hull of its four Bézier control points, of which positions and velocities at its ends tell.
+
+        Args:
+            low: The ends of the ranges, (dof,); the joints stand still inside of them at the first and the last time.
+            high: The other ends.
+        """
+        positions = np.clip(self.positions, low, high)
+        pace = 3 / np.diff(self.times)[:, None]
+        to_low, to_high = low - positions, high - positions
+        velocities = self.velocities.copy()
+        velocities[:-1] = np.clip(velocities[:-1], pace * to_low[:-1], pace * to_high[:-1])
+        velocities[1:] = np.clip(velocities[1:], -pace * to_high[1:], -pace * to_low[1:])
+        return Piece(self.times, positions, velocities)
+
     def excess(self, limits: Limits) -> float:
         """By which factor the piece has to be slower to be within the limits everywhere; 1 or less if it is.
 

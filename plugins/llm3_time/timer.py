@@ -24,7 +24,8 @@ class ToppraTimer(TrajectoryTimer):
     """Follows the edges between the waypoints, with stops at corners.
 
     A motion through waypoints between two corners, such as a straight line of the tool, becomes a smooth curve that
-    stays within `llm3_time.curved.TOLERANCE` of the edges. Where that cannot be, the robot stops in between, at last
+    stays within `llm3_time.curved.TOLERANCE` of the edges, and each joint between its least and its largest position
+    at these waypoints. Where that cannot be, the robot stops in between, at last
     at every waypoint, which is always possible and exact.
     """
 

@@ -23,10 +23,10 @@ def sentence_of(failure: Failure) -> str:
         case FailureKind.START_IN_COLLISION:
             return _motion(f"The robot is in collision{_with(failure)} already where this action starts.", failure)
         case FailureKind.UNREACHABLE:
-            what = "The goal configuration has no inverse kinematics solution"
             if failure.detail:
-                return _motion(f"{what} for the whole motion.{_involved(failure)}", failure)
-            return f"{what}: it is out of the robot's reach.{_involved(failure)}"
+                return _motion(f"No motion leads to the goal configuration.{_involved(failure)}", failure)
+            what = "The goal configuration has no inverse kinematics solution: it is out of the robot's reach."
+            return what + _involved(failure)
         case FailureKind.NO_PATH:
             what = (
                 "The goal configuration is collision-free and reachable, but no collision-free path to it was found "

@@ -10,7 +10,7 @@ import pytest
 from block_world import CUBE, after, carried_out, moved, pick, place, problem, refused, stack, tower
 from scipy.spatial.transform import Rotation
 
-from llm3.errors import InputError
+from llm3.errors import InputError, InstanceError
 from llm3.types import Entity, Failure, FailureKind, Motion, Pose
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.tabletop.stance import stance
@@ -243,3 +243,60 @@ def test_a_tower_under_the_arm_is_refused(make):
     with pytest.raises(InputError) as error:
         make(problem(tower("red_block", at=(0.0, 0.0)), goal="red_block on table"))
     assert str(error.value) == "the arm touches red_block where it starts: move it farther from the arm."
+
+
+@pytest.mark.parametrize(
+    ("instance", "sentence"),
+    [
+        (
+            problem(
+                tower("red_block", at=(0.5, 0.0)),
+                tower("tan_slab", at=(0.5, -0.3)),
+                goal="tan_slab on red_block",
+                sizes={"tan_slab": (0.2, 0.2, 0.03)},
+            ),
+            "tan_slab is too wide for the gripper, which takes up to 0.072 m.",
+        ),
+        (
+            problem(
+                tower("tan_slab", "red_block", at=(0.5, 0.0)),
+                tower("blue_block", at=(0.5, -0.3)),
+                goal="tan_slab on blue_block",
+                sizes={"red_block": (0.1, 0.1, 0.03)},
+            ),
+            "red_block is too wide for the gripper, which takes up to 0.072 m.",
+        ),
+        (
+            problem(
+                tower("red_block", at=(0.5, 0.0)), tower("blue_block", at=(0.9, 0.3)), goal="blue_block on red_block"
+            ),
+            "blue_block starts out of the arm's reach: move it closer to the arm.",
+        ),
+        (
+            problem(
+                tower("red_block", at=(0.5, 0.0)),
+                tower("blue_block", at=(0.5, -0.2)),
+                tower("tan_block", at=(0.5, 0.2)),
+                goal="blue_block on red_block, tan_block on blue_block, red_block on table",
+                sizes=dict.fromkeys(("red_block", "blue_block", "tan_block"), (0.05, 0.05, 0.4)),
+            ),
+            "the goal has tan_block 1.00 m above the table, and the arm puts nothing down higher than 0.93 m",
+        ),
+    ],
+)
+def test_a_problem_that_cannot_be_solved_is_refused_when_the_world_is_made(make, instance, sentence):
+    with pytest.raises(InstanceError) as error:
+        make(instance)
+    assert str(error.value) == sentence
+
+
+def test_what_stays_where_it_is_may_be_of_any_width_and_anywhere(make):
+    sizes = {"tan_slab": (0.2, 0.2, 0.03)}
+    make(
+        problem(
+            tower("tan_slab", at=(0.8, 0.5)),
+            tower("red_block", at=(0.5, 0.0)),
+            goal="red_block on tan_slab",
+            sizes=sizes,
+        )
+    )

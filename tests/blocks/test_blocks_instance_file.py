@@ -112,3 +112,20 @@ def test_a_yaw_that_is_no_number_is_refused():
     with pytest.raises(ValueError) as error:
         TowerSpec(("red_block",), (0.4, 0.0), nan)
     assert str(error.value) == "the yaw of the tower of red_block must be a finite number of radians, not nan"
+
+
+def test_what_is_above_a_block_that_has_to_be_moved_has_to_be_moved_too():
+    cubes = tuple(BlockSpec(name, (0.05, 0.05, 0.05)) for name in ("a", "b", "c", "d"))
+    towers = TowerSpec(("a", "b", "c"), (0.5, 0.1)), TowerSpec(("d",), (0.5, -0.1))
+    assert BlocksInstance(cubes, towers, (On("b", "d"),)).to_move == ("b", "c")
+    assert BlocksInstance(cubes, towers, (On("d", "c"), On("a", "table"))).to_move == ("d",)
+    assert BlocksInstance(cubes, towers, (On("b", "a"),)).to_move == ()
+
+
+def test_a_block_of_the_goal_is_as_high_as_what_is_below_it():
+    sizes = {"a": (0.05, 0.05, 0.1), "b": (0.05, 0.05, 0.2), "c": (0.05, 0.05, 0.3)}
+    blocks = tuple(BlockSpec(name, size) for name, size in sizes.items())
+    towers = tuple(TowerSpec((name,), (0.5, 0.2 * index)) for index, name in enumerate(sizes))
+    whole = BlocksInstance(blocks, towers, (On("c", "b"), On("b", "a"), On("a", "table")))
+    assert whole.heights == pytest.approx({"a": 0.05, "b": 0.2, "c": 0.45})
+    assert BlocksInstance(blocks, towers, (On("c", "b"),)).heights == pytest.approx({"c": 0.35})

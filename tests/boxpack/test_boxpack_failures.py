@@ -9,10 +9,10 @@ import pytest
 from packing_world import BAR, BASKET, CUBE, POST, after, box, carried_out, moved, pick, place, problem, refused
 from scipy.spatial.transform import Rotation
 
-from llm3.errors import InputError, UsageError
+from llm3.errors import InputError, InstanceError, UsageError
 from llm3.types import FailureKind, State
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.instance import BoxSpec
+from llm3_boxpack.instance import BasketSpec, BoxSpec
 from llm3_bullet.robots.panda import panda
 from llm3_bullet.touchdown import CUT_SHORT
 from llm3_bullet.workcell import Workcell
@@ -69,7 +69,7 @@ class TestPreconditions:
         assert self.sentence(env, holding, place("blue_box", 0.6, 0.0)) == sentence
 
     def test_a_box_that_is_too_wide_is_not_taken(self, make):
-        env = make(problem(box("red_box", 0.4, 0.0, (0.08, 0.09, 0.05))))
+        env = make(problem(box("red_box", 0.65, 0.0, (0.08, 0.09, 0.05))))  # it is where it belongs
         sentence = "red_box is too wide for the gripper, which takes up to 0.072 m."
         assert self.sentence(env, env.reset(), pick("red_box")) == sentence
 
@@ -88,8 +88,9 @@ def test_a_place_out_of_reach_is_unreachable_and_says_by_how_much(env, holding, 
 
 
 def test_a_box_out_of_reach_is_unreachable(make):
-    env = make(problem(box("red_box", 1.2, 0.8)))
-    assert refused(env, env.reset(), pick("red_box")).kind is FailureKind.UNREACHABLE
+    env = make(problem(box("red_box", 0.5, 0.0)))
+    state = moved(env.reset(), "red_box", 1.2, 0.8, 0.035)
+    assert refused(env, state, pick("red_box")).kind is FailureKind.UNREACHABLE
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.7, 1.57, 3.14, -1.57, -3.0])
@@ -204,6 +205,27 @@ def test_a_box_inside_of_the_arm_is_refused_when_the_world_is_made(make):
     with pytest.raises(InputError) as error:
         make(problem(box("red_box", 0.0, 0.0)))
     assert str(error.value) == "the arm touches red_box where it starts: move it farther from the arm."
+
+
+@pytest.mark.parametrize(
+    ("instance", "sentence"),
+    [
+        (
+            problem(box("red_box", 0.4, 0.0, (0.2, 0.2, 0.07))),
+            "red_box is too wide for the gripper, which takes up to 0.072 m.",
+        ),
+        (problem(box("red_box", 1.2, 0.8)), "red_box starts out of the arm's reach: move it closer to the arm."),
+        (
+            problem(box("red_box", 0.5, 0.0), basket=BasketSpec((0.1, 0.0), (0.2, 0.2))),
+            "the arm stands on basket: move it farther from the arm.",
+        ),
+        (problem(box("red_box", 0.502, 0.0)), "basket_wall_front and red_box start in one another"),
+    ],
+)
+def test_a_problem_that_cannot_be_solved_is_refused_when_the_world_is_made(make, instance, sentence):
+    with pytest.raises(InstanceError) as error:
+        make(instance, 0.05)
+    assert str(error.value) == sentence
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,8 @@ from packing_world import BASKET, CUBE, POST, box, moved, problem, standing
 from scipy.spatial.transform import Rotation
 
 from llm3.types import Held, Pose, State
-from llm3_boxpack.goal import TOLERANCE, goal_status
+from llm3_boxpack.goal import goal_status
+from llm3_boxpack.instance import TOLERANCE
 
 TWO = problem(box("red_box", 0.39, -0.2), box("tan_box", 0.39, 0.2, POST))
 PACKED = standing({"red_box": (0.6, 0.0), "tan_box": (0.7, 0.0)})

@@ -51,6 +51,16 @@ WRONG = [
     ("boxes.0.colour", "red", "unknown field `colour`, expected name, size, position, yaw - at `$.boxes[0]`"),
     ("boxes.1.name", "red_box", "two boxes are called red_box"),
     ("boxes.1.position", [0.39, -0.15], "red_box and blue_box start in one another"),
+    (
+        "boxes.0.size",
+        [0.3, 0.1, 0.07],
+        "red_box covers 0.3 by 0.1 m, which does not fit into the basket of 0.22 by 0.21 m",
+    ),
+    (
+        "basket.size",
+        [0.07, 0.07],
+        "the boxes cover 0.006125 m² together, which does not fit into the basket of 0.07 by 0.07 m, 0.0049 m²",
+    ),
     ("boxes", [], "there must be 1 to 100 boxes, not 0"),
     ("boxes", {}, "Expected `array`, got `object` - at `$.boxes`"),
     ("basket.size", [0.22, 0.0], "the basket's sides must be 0.02 to 2 m, not [0.22, 0.0] - at `$.basket`"),
@@ -128,3 +138,13 @@ def test_a_box_starts_all_inside_or_all_outside_of_the_basket():
     with pytest.raises(ValueError) as error:
         BoxpackInstance(BasketSpec((0.65, 0.0), (0.22, 0.21)), (BoxSpec("red_box", (0.04, 0.04, 0.06), (0.521, 0.0)),))
     assert str(error.value) == "red_box starts on the basket's edge; it must be all inside or all outside"
+
+
+def test_a_box_may_lie_slantwise_in_the_basket():
+    loads(changed("boxes.0.size", [0.28, 0.01, 0.07]), BoxpackInstance, "my.json")
+
+
+def test_what_starts_outside_of_the_basket_has_to_be_moved():
+    inside = BoxSpec("red_box", (0.07, 0.07, 0.07), (0.65, 0.0))
+    outside = BoxSpec("tan_box", (0.07, 0.07, 0.07), (0.39, 0.0))
+    assert BoxpackInstance(BasketSpec((0.65, 0.0), (0.22, 0.21)), (inside, outside)).to_move == ("tan_box",)

@@ -83,7 +83,7 @@ def test_a_long_series_of_them_does_so_too():
 def test_a_problem_that_is_refused_leaves_the_world_to_its_owner(domain):
     instance = domain.instance("easy-small", 0)
     with closing(domain.make(instance, PANDA)) as env:
-        under_the_arm = replace(instance, boxes=(BoxSpec("red_box", (0.3, 0.3, 0.5), (0.3, 0.0)),))
+        under_the_arm = replace(instance, boxes=(BoxSpec("red_box", (0.2, 0.2, 0.5), (0.3, 0.0)),))
         with pytest.raises(InputError):
             domain.remake(env, under_the_arm, PANDA)
         assert domain.remake(env, instance, PANDA).reset() == env.reset()

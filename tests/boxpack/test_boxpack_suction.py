@@ -45,7 +45,7 @@ def test_a_cup_needs_no_room_beside_a_box(env):
 
 
 def test_a_face_that_is_narrower_than_the_cup_is_a_precondition():
-    world = BoxpackEnv(problem(box("red_box", 0.39, 0.0, (0.02, 0.05, 0.05))), Workcell(iiwa()))
+    world = BoxpackEnv(problem(box("red_box", 0.65, 0.0, (0.02, 0.05, 0.05))), Workcell(iiwa()))
     answer = world.prepare(world.reset(), pick("red_box"), np.random.default_rng(0))
     world.close()
     assert isinstance(answer, Failure)

@@ -114,3 +114,30 @@ def test_overhang_is_how_far_the_farthest_corner_reaches_out():
     assert outer.overhang(Rectangle((1.0, 0.0), (0.5, 0.5))) == pytest.approx(0.25)
     diamond = Rectangle((1.0, 0.0), (0.5, 0.5), (cos(pi / 4), sin(pi / 4)))
     assert outer.overhang(diamond) == pytest.approx(0.25 * 2**0.5)
+
+
+@given(sides, sides, sides, sides)
+def test_there_is_room_for_what_fits_at_some_angle(a, b, p, q):
+    area = Rectangle((0.2, 0.1), (a, b))
+    turns = np.linspace(0.0, pi / 2, 2001)
+    wide, high = p * np.cos(turns) + q * np.sin(turns), p * np.sin(turns) + q * np.cos(turns)
+    if ((wide <= a) & (high <= b)).any():
+        assert area.has_room_for((p, q), tolerance=1e-12)
+    if ((wide > a + 1e-4) | (high > b + 1e-4)).all():
+        assert not area.has_room_for((p, q))
+
+
+@pytest.mark.parametrize(
+    ("size", "fits"),
+    [((0.2, 0.1), True), ((0.1, 0.2), True), ((0.21, 0.1), False), ((0.21, 0.01), True), ((0.05, 0.11), True)],
+)
+def test_room_is_found_across_and_slantwise(size, fits):
+    assert Rectangle((0.0, 0.0), (0.2, 0.1)).has_room_for(size) is fits
+
+
+def test_what_reaches_out_a_little_may_be_let_in():
+    assert Rectangle((0.0, 0.0), (0.2, 0.1)).has_room_for((0.201, 0.1015), tolerance=0.001)
+
+
+def test_the_area_is_the_product_of_the_sides():
+    assert Rectangle((0.3, 0.0), (0.2, 0.1), (0.6, 0.8)).area == pytest.approx(0.02)

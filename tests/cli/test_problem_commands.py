@@ -12,7 +12,8 @@ BAD_FILES = {
     "unknown field": ('{"gap": 0.5, "gaps": 2}', "unknown field `gaps`, expected gap - at `$`"),
     "no object": ("[]", "Expected `object`, got `array`"),
     "cut off": ('{"gap"', "Input data was truncated"),
-    "empty": ("", "Input data was truncated"),
+    "empty": ("", "empty"),
+    "blank": (" \n", "empty"),
 }
 
 
@@ -108,3 +109,38 @@ def llm3_domains():
         "llm3: error: domain 'wordless' has no rule-based stand-in and no skeleton to draw parameters for: "
         "give --model NAME or --llm scripted:FILE.\n"
     )
+
+
+def test_a_file_of_which_no_world_can_be_made_is_named(command, install, cwd):
+    install(
+        "llm3_cramped",
+        """
+from llm3 import hookimpl
+from llm3.errors import InstanceError
+from llm3_corridor import Corridor
+
+class Cramped(Corridor):
+    name = "cramped"
+    def make(self, instance, options):
+        if instance.gap < 0.1:
+            raise InstanceError("the robot and the wall start in one another")
+        return super().make(instance, options)
+
+@hookimpl
+def llm3_domains():
+    return {"cramped": Cramped}
+""",
+    )
+    (cwd / "problem.json").write_text('{"gap": 0.05}')
+    sentence = "the robot and the wall start in one another"
+    for line in ("--domain cramped", "prompt --domain cramped"):
+        ended = command(f"{line} --instance problem.json")
+        assert (ended.code, ended.out, ended.err) == (3, "", f"llm3: error: problem.json: {sentence}\n")
+    (cwd / "problem.json").write_text('{"gap": 0.25}')
+    assert command("--domain cramped --instance problem.json --out run --quiet").code == 0
+    for name, where in (("plan.json", "the plan's instance"), ("run.json", "run/run.json, instance")):
+        text = (cwd / "run" / name).read_text(encoding="utf-8")
+        assert '"gap":0.25' in text.replace(" ", "")
+        (cwd / "run" / name).write_text(text.replace("0.25", "0.05"), encoding="utf-8")
+        ended = command("verify run" if name == "plan.json" else "--llm replay:run --quiet --out again")
+        assert (ended.code, ended.out, ended.err) == (3, "", f"llm3: error: {where}: {sentence}\n")

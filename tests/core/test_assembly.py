@@ -8,7 +8,7 @@ from threadpoolctl import threadpool_info, threadpool_limits
 
 from llm3 import Budget, LLMBackend, Registry, hookimpl, prepare
 from llm3.assembly import RunConfig, assemble, choose_instance, choose_options, open_problem
-from llm3.errors import MissingCapability, PluginError, UnknownName, UsageError
+from llm3.errors import InstanceError, MissingCapability, PluginError, UnknownName, UsageError
 from llm3.jsonio import dumps, loads
 from llm3.testing import ScriptedLLM
 from llm3.types import Completion, Sketch
@@ -142,6 +142,29 @@ def test_a_window_needs_a_domain_that_has_one():
     assert complaint(open_problem, LineDomain(), LineInstance(0.0), {}, window=True, error=MissingCapability) == (
         "domain 'line' has no window, which --gui needs."
     )
+
+
+class NoRoom(FullLineDomain):
+    name = "no-room"
+
+    def make(self, instance, options):
+        raise InstanceError("the coin and the wall start in one another")
+
+
+@pytest.mark.parametrize(("source", "first"), [("my.json", "my.json: "), ("", "")])
+def test_where_an_instance_comes_from_is_said_first_if_no_world_can_be_made_of_it(source, first):
+    class Plugin:
+        @hookimpl
+        def llm3_domains(self):
+            return {"no-room": NoRoom}
+
+    registry, sentence = line_registry(), f"{first}the coin and the wall start in one another"
+    registry.register(Plugin(), "no-room")
+    one, asked = LineInstance(0.0), config(domain="no-room")
+    assert complaint(open_problem, NoRoom(), one, {}, source=source, error=InstanceError) == sentence
+    assert complaint(open_problem, NoRoom(), one, {}, window=True, source=source, error=InstanceError) == sentence
+    assert complaint(assemble, registry, asked, one, source=source, error=InstanceError) == sentence
+    assert complaint(prepare(registry, asked, one, source).open, error=InstanceError) == sentence
 
 
 # ---- runs ----------------------------------------------------------------------------------------------------------

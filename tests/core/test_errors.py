@@ -8,6 +8,7 @@ from llm3 import errors
 from llm3.errors import (
     BackendError,
     InputError,
+    InstanceError,
     LLM3Error,
     MissingCapability,
     MissingDependency,
@@ -24,6 +25,7 @@ EXIT_CODES = {
     MissingCapability: 2,
     OutputExists: 2,
     InputError: 3,
+    InstanceError: 3,
     PluginError: 3,
     MissingDependency: 3,
     BackendError: 3,

@@ -120,7 +120,8 @@ def test_what_has_no_json_form_is_named(write):
 # ---- in ------------------------------------------------------------------------------------------------------------
 
 WRONG = {
-    "no text": ("", "table.json: Input data was truncated"),
+    "no text": ("", "table.json: empty"),
+    "blank": (b"\xef\xbb\xbf\n \n", "table.json: empty"),
     "no JSON": ("height: 1", "table.json: JSON is malformed: invalid character (byte 0)"),
     "cut off": ('{"height": 1', "table.json: Input data was truncated"),
     "more than one": ('{"height": 1} 2', "table.json: JSON is malformed: trailing characters (byte 15)"),

@@ -24,6 +24,7 @@ from kitchen_world import (
     wash,
 )
 
+from llm3.errors import InstanceError
 from llm3.types import Action, FailureKind, Motion, NoMotion, Pose, State
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import PLATE_HEIGHT
@@ -227,3 +228,35 @@ def test_the_answers_do_not_depend_on_what_was_asked_before(make, env, start):
     other = make(KITCHEN)
     assert env.reset() == other.reset() == start
     assert refused(env, start, Action("pick", ("carrot",))) == refused(other, start, Action("pick", ("carrot",)))
+
+
+@pytest.mark.parametrize(
+    ("instance", "sentence"),
+    [
+        (
+            replace(KITCHEN, foods=(replace(BREAD, size=(0.2, 0.2, 0.06)),), clutter=()),
+            "bread is too wide for the gripper, which takes up to 0.072 m.",
+        ),
+        (
+            replace(KITCHEN, places=(*PLACES[:4], replace(PLACES[4], center=(0.0, 0.0), size=(0.2, 0.2)))),
+            "the arm stands on serving: move it farther from the arm.",
+        ),
+        (
+            replace(
+                KITCHEN,
+                places=(replace(PLACES[0], size=(0.9, 0.66)), *PLACES[3:]),
+                foods=(replace(BREAD, position=(0.95, 0.0)),),
+                clutter=(),
+            ),
+            "bread starts out of the arm's reach: move it closer to the arm.",
+        ),
+    ],
+)
+def test_a_kitchen_in_which_nothing_can_be_served_is_refused(make, instance, sentence):
+    with pytest.raises(InstanceError) as error:
+        make(instance)
+    assert str(error.value) == sentence
+
+
+def test_clutter_may_be_too_wide_for_the_gripper(make):
+    make(replace(KITCHEN, clutter=(replace(BOTTLE, size=(0.1, 0.1, 0.05), position=(0.6, -0.1)),)))

@@ -54,6 +54,26 @@ WRONG = [
     ("places.2.kind", "store", "there must be a place of the kind 'stove'"),
     ("places.3.kind", "store", "there must be a place of the kind 'serving'"),
     ("places.2.center", [0.3, 0.195], "basin and hob overlap"),
+    (
+        "places.3.size",
+        [0.03, 0.03],
+        "leek fits into no place of the kind 'serving': it covers 0.15 by 0.035 m, and tray 0.03 by 0.03 m",
+    ),
+    (
+        "places.1.size",
+        [0.1, 0.1],
+        "leek fits into no place of the kind 'sink': it covers 0.15 by 0.035 m, and basin 0.1 by 0.1 m",
+    ),
+    (
+        "places.2.size",
+        [0.1, 0.1],
+        "leek fits into no place of the kind 'stove': it covers 0.15 by 0.035 m, and hob 0.1 by 0.1 m",
+    ),
+    (
+        "places.3.size",
+        [0.15, 0.06],
+        "the food covers 0.01005 m² together, and the places of the kind 'serving' only 0.009 m²",
+    ),
     ("foods", [], "there must be 1 to 24 things, one of them food at least, not 0 foods and 1 other things"),
     (
         "foods.0.name",
@@ -119,3 +139,23 @@ def test_the_pieces_of_a_rim_are_those_of_the_furniture():
     """Failures call them so, and nothing else may be called so."""
     names = {box.name for box in furniture(PLACES)}
     assert names == {"table", "stove", *next(place for place in PLACES if place.kind == "sink").rim}
+
+
+def test_each_of_several_places_is_told_into_which_food_does_not_fit():
+    plate = {"name": "plate", "kind": "serving", "center": [0.0, -0.6], "size": [0.1, 0.05]}
+    places = [*GOOD["places"][:3], {**GOOD["places"][3], "size": [0.1, 0.1]}, plate]
+    with pytest.raises(InputError) as error:
+        loads(json.dumps({**GOOD, "places": places}), KitchenInstance, "my.json")
+    assert str(error.value) == (
+        "my.json: leek fits into no place of the kind 'serving': it covers 0.15 by 0.035 m, and tray 0.1 by 0.1 m, "
+        "plate 0.1 by 0.05 m"
+    )
+
+
+def test_food_that_is_served_at_the_start_and_needs_nothing_else_may_stay():
+    served = {"position": [0.0, 0.6], "size": [0.04, 0.04, 0.04]}
+    foods = [{**GOOD["foods"][0]}, {**GOOD["foods"][1], **served}]
+    instance = loads(json.dumps({**GOOD, "foods": foods}), KitchenInstance, "my.json")
+    assert instance.to_move == ("leek",)
+    foods[1]["washed"] = True
+    assert loads(json.dumps({**GOOD, "foods": foods}), KitchenInstance, "my.json").to_move == ("leek", "corn")

@@ -46,7 +46,7 @@ def test_what_is_carried_moves_with_the_robot_and_does_not_turn(angle, spot, the
 @few
 @given(spots, st.floats(0, pi))
 def test_what_is_pushed_moves_straight_to_where_it_is_to_go_and_does_not_turn(spot, theta):
-    env = world(box("red_box", 0.5, 0.4, (0.2, 0.1), theta))
+    env = world(box("red_box", 0.5, 0.4, (0.16, 0.1), theta))
     answer = asked(env, env.reset(), push("red_box", *spot))
     if isinstance(answer, NoMotion):
         assert np.allclose(spot, (0.5, 0.4), atol=1e-4)

@@ -61,6 +61,11 @@ WRONG = [
     ("goals", [{"object": "red_disc", "region": "tray"}] * 2, "two goals are for red_disc"),
     ("room.0", 100.0, "the sides of the room must be 0.2 to 10 m, not [100.0, 0.8]"),
     ("regions.0.center.0", 1.15, "tray reaches out of the room of 1.2 by 0.8 m"),
+    (
+        "regions.0.size",
+        [0.05, 0.4],
+        "red_disc reaches 0.08 by 0.08 m along x and y, which does not fit into tray of 0.05 by 0.4 m",
+    ),
     ("walls.0.size.1", 7.0, "the sides of post must be 0.01 to 5 m, not [0.04, 7.0] - at `$.walls[0]`"),
 ]
 
@@ -109,3 +114,32 @@ def test_a_right_file_is_read_as_it_was_written():
         instance = generate(setting, 3)
         assert loads(pretty(instance), TabletopInstance, "mine.json") == instance
     assert loads(json.dumps(GOOD), TabletopInstance, "mine.json").region_of("blue_box") is None
+
+
+@pytest.mark.parametrize("solver", ["loop", "search"])
+def test_a_problem_that_is_solved_from_the_start_is_told_to_be_so(command, cwd, solver):
+    solved = {**GOOD, "objects": [{**GOOD["objects"][0], "position": [1.0, 0.4]}]}
+    (cwd / "solved.json").write_text(pretty(solved), encoding="utf-8")
+    ended = command(f"--domain tabletop2d --instance solved.json --solver {solver} --out here")
+    assert (ended.code, ended.out) == (0, "")
+    *_, summary, reason, record = ended.err.splitlines()
+    assert summary.startswith("solved in ")
+    assert (reason, record) == ("the goal is reached before anything is done", "record: here")
+    assert command("verify here").code == 0
+    if solver == "loop":
+        again = command("--llm replay:here --out again")
+        assert again.code == 0
+        assert (cwd / "again/plan.json").read_bytes() == (cwd / "here/plan.json").read_bytes()
+
+
+def test_a_region_must_hold_its_object_as_it_is_turned():
+    data = json.loads(changed("regions.0.size", [0.11, 0.4]))
+    loads(json.dumps(data), TabletopInstance, "mine.json")
+    data["goals"][0]["object"] = "blue_box"
+    with pytest.raises(InputError) as error:
+        loads(json.dumps(data), TabletopInstance, "mine.json")
+    assert str(error.value) == (
+        "mine.json: blue_box reaches 0.117 by 0.101 m along x and y, which does not fit into tray of 0.11 by 0.4 m"
+    )
+    data["objects"][1]["theta"] = 0.0
+    loads(json.dumps(data), TabletopInstance, "mine.json")

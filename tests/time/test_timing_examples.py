@@ -8,8 +8,8 @@ import pytest
 from llm3.types import Trajectory
 from llm3_time.timer import ToppraTimer
 
-CIRCLE = np.linspace(0.0, 2.0, 41)
-"""Angles of waypoints on a circle, a little less than three degrees apart."""
+ARC = np.linspace(0.0, 1.5, 31)
+"""Angles of waypoints on a circle, a little less than three degrees apart; both joints go one way only."""
 
 
 def time(waypoints, velocity=2.0, acceleration=8.0) -> Trajectory:
@@ -60,10 +60,27 @@ def test_the_robot_turns_around():
 
 
 def test_the_robot_does_not_stop_on_a_curve():
-    trajectory = time(np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE)]) * 0.3)
+    trajectory = time(np.column_stack([np.cos(ARC), np.sin(ARC)]) * 0.3)
     assert len(stops(trajectory)) == 2
-    # 0.6 m of an arc with a radius of 0.3 m; across, v²/r stays below the limit up to 1.55 m/s
-    assert trajectory.duration < 0.6
+    # 0.45 m of an arc with a radius of 0.3 m; across, v²/r stays below the limit up to 1.55 m/s
+    assert trajectory.duration < 0.5
+
+
+def test_a_joint_that_turns_round_between_two_waypoints_does_so_within_them():
+    there_and_back = ARC + 0.796
+    trajectory = time(np.column_stack([np.cos(there_and_back), np.sin(there_and_back)]) * 0.3)
+    assert len(stops(trajectory)) == 2
+    positions = trajectory.sample(np.linspace(0.0, trajectory.duration, 2001))[0]
+    assert positions[:, 1].max() <= 0.3 * np.sin(there_and_back).max() + 1e-12
+
+
+def test_a_joint_that_comes_to_rest_at_its_limit_does_not_swing_beyond_it():
+    """The seventh joint of an arm that comes down on a block, to the end of its travel; the others go on."""
+    turning = [3.0529, 3.0535, *[3.0543] * 9]
+    trajectory = time(np.column_stack([turning, np.linspace(0.0, 0.2, 11)]))
+    positions = trajectory.sample(np.linspace(0.0, trajectory.duration, 2001))[0]
+    assert positions[:, 0].max() <= 3.0543 + 1e-12
+    assert len(stops(trajectory)) == 2
 
 
 def test_a_bend_too_wide_to_round_is_a_corner():

@@ -87,6 +87,17 @@ def test_it_stays_near_the_edges_between_the_waypoints(case) -> None:
 
 @given(cases)
 @QUICK
+def test_no_joint_leaves_the_range_of_its_waypoints(case) -> None:
+    """What a robot's own limits are, a timer does not know: the path was checked against them."""
+    waypoints, trajectory = case[0], time(case)
+    points = trajectory.sample(dense(trajectory))[0]
+    blur = 1e-9 + 8 * np.finfo(float).eps * np.abs(waypoints).max()
+    assert (points >= waypoints.min(axis=0) - blur).all()
+    assert (points <= waypoints.max(axis=0) + blur).all()
+
+
+@given(cases)
+@QUICK
 def test_velocities_and_accelerations_are_within_the_limits_at_all_times(case) -> None:
     _, max_velocity, max_acceleration = case
     trajectory = time(case)

@@ -77,8 +77,7 @@ def test_every_kind_has_a_sentence_of_its_own(kind: FailureKind) -> None:
         ),
         (
             Failure(FailureKind.UNREACHABLE, "The pose is 0.9 m from the base", ("red_box",)),
-            "The goal configuration has no inverse kinematics solution for the whole motion. "
-            "Involved: red_box. The pose is 0.9 m from the base.",
+            "No motion leads to the goal configuration. Involved: red_box. The pose is 0.9 m from the base.",
         ),
         (
             Failure(FailureKind.NO_PATH, objects=("shelf",), measures={"gap": 0.3}),
@@ -139,6 +138,5 @@ def test_sentences_are_closed(text: str, whole: str) -> None:
 def test_what_can_be_reached_but_not_moved_through_is_not_called_out_of_reach() -> None:
     failure = Failure(FailureKind.UNREACHABLE, "The arm cannot come straight down on it.")
     assert sentence_of(failure) == (
-        "The goal configuration has no inverse kinematics solution for the whole motion. "
-        "The arm cannot come straight down on it."
+        "No motion leads to the goal configuration. The arm cannot come straight down on it."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import cos, isfinite, sin
 from typing import ClassVar
@@ -62,6 +63,20 @@ class BoxSpec(BoxShape):
     def standing(self, height: float) -> Box:
         """The box at its start, on something of this height in metres."""
         return Box(self.name, self.size, upright(self.position, height + self.size[2] / 2, self.yaw))
+
+
+def check_boxes(boxes: Sequence[BoxSpec]) -> None:
+    """See that no two boxes have the same name or start in one another: for the `__post_init__` of an instance.
+
+    Raises:
+        ValueError: Two do.
+    """
+    for index, box in enumerate(boxes):
+        for other in boxes[:index]:
+            if box.name == other.name:
+                raise ValueError(f"two boxes are called {box.name}")
+            if box.footprint.overlaps(other.footprint):
+                raise ValueError(f"{other.name} and {box.name} start in one another")
 
 
 def upright(position: tuple[float, float], height: float, yaw: float) -> Pose:

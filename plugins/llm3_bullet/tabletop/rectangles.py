@@ -44,6 +44,27 @@ class Rectangle:
         local = (np.array(point) - self.center) @ np.array([(x, -y), (y, x)])
         return bool((np.abs(local) <= np.array(self.size) / 2).all())
 
+    @property
+    def area(self) -> float:
+        """In square metres."""
+        return self.size[0] * self.size[1]
+
+    def has_room_for(self, size: Point, tolerance: float = 0.0) -> bool:
+        """Whether a rectangle of this size fits into it, moved and turned in some way.
+
+        A longer one fits slantwise if this one is wide enough: W. B. Carver, "Solution to Problem E 1225", The American
+        Mathematical Monthly 64(2), 1957.
+
+        Args:
+            size: Full side lengths in metres.
+            tolerance: How far it may reach out on each side, in metres.
+        """
+        p, q = max(size), min(size)
+        a, b = (side + 2 * tolerance for side in (max(self.size), min(self.size)))
+        if q > b or p <= a:
+            return q <= b
+        return bool(b * (p**2 + q**2) >= 2 * p * q * a + (p**2 - q**2) * np.sqrt(p**2 + q**2 - a**2))
+
     def overhang(self, inner: Rectangle) -> float:
         """How far the inner rectangle reaches out of this one, in metres; 0 if it is inside."""
         x, y = self.direction

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
-from llm3.errors import InputError
 from llm3.interfaces import Joint
-from llm3.types import EventKind, Failure, Held, Motion, MotionProblem, State, Transition
+from llm3.types import EventKind, Failure, FrozenDict, Held, Motion, MotionProblem, State, Transition
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.scene import Box, Scene
 from llm3_bullet.tabletop.manipulation import Manipulation, precondition
+from llm3_bullet.tabletop.rectangles import Rectangle
 from llm3_bullet.tabletop.resting import boxes_on
 from llm3_bullet.tabletop.stance import stance
-from llm3_bullet.tabletop.start_check import start_fault
+from llm3_bullet.tabletop.start_check import check_start
 from llm3_bullet.tabletop.surprises import is_still, surprises
 from llm3_bullet.tabletop.table import Surface, support_height
 from llm3_bullet.touchdown import Touchdown
@@ -36,17 +36,23 @@ class Tabletop:
         furniture: Iterable[Box],
         boxes: Iterable[Box],
         surfaces: Iterable[Surface] = (),
+        areas: Mapping[str, Rectangle] = FrozenDict(),
+        to_move: Iterable[str] = (),
     ) -> None:
-        """Set it up.
+        """Set it up, unless something is wrong with how it begins.
 
         Args:
             workcell: The robot and its simulators.
             furniture: What nothing moves; the table is not among it by itself.
             boxes: What the arm can take, where it starts.
             surfaces: Where boxes are put down higher than on the table.
+            areas: Where boxes have to be put down, by name.
+            to_move: The names of boxes without a move of which the goal cannot be reached.
 
         Raises:
-            InputError: Something stands where the arm starts.
+            InstanceError: A box starts in another one, in the furniture or in the arm; the arm stands on an area; a
+                box that has to be moved does not fit the gripper, or is farther away than the arm is long.
+            InputError: The arm touches itself or the furniture where it starts.
         """
         self.workcell, self._furniture, self._surfaces = workcell, tuple(furniture), tuple(surfaces)
         start = {box.name: box for box in boxes}
@@ -55,10 +61,7 @@ class Tabletop:
         self.start = State({name: box.pose for name, box in start.items()}, tuple(workcell.model.home))
         """The boxes at their start, the arm at home."""
         self._manipulation = Manipulation(self.sizes, self._furniture, workcell.gripper)
-        contacts = workcell.checker.view(self.scene(self.start)).contacts(np.array(self.start.configuration))
-        fault = start_fault(contacts, self.sizes)
-        if fault:
-            raise InputError(fault)
+        check_start(workcell, self._manipulation, self.start, areas, to_move)
 
     @property
     def joints(self) -> tuple[Joint, ...]:

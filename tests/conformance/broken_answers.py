@@ -153,7 +153,7 @@ OF_MORE: dict[str, Planted] = {
     "looks at the last state": Planted(
         a_yard(prepare=lingering, free=looking),
         "a motion problem stays what it is",
-        "the validity test of … answers differently once other actions were prepared.",
+        "the validity test of … answers (…) differently after preparing ….",
         "bind it to the state of its own prepare",
     ),
     "draws from everybody's generator": Planted(
@@ -177,7 +177,7 @@ OF_MORE: dict[str, Planted] = {
     "worlds that are numbered": Planted(
         a_yard(__init__=numbered()),
         "two worlds of one instance are equal",
-        "a second world differs: task is '…' and then '….",
+        "a second world differs: task is …ring the bell. This is yard 0.' and then …This is yard 1.'.",
         "take all of it from the instance",
     ),
     "worlds that share a simulator": Planted(
@@ -246,15 +246,16 @@ OF_MOTION_PROBLEMS: dict[str, Planted] = {
     ),
     "endless limits": Planted(
         with_query(high=lambda env: np.array((2.0, np.inf))),
-        "limits hold the start and the goals",
+        "limits hold what follows a goal",
         "the limits of … are (0, 0) to (2, inf).",
         "finite limits",
     ),
     "goal outside of the limits": Planted(
         a_yard(problem=far_away),
-        "limits hold the start and the goals",
-        "the goal (…) of … is outside of (0, 0) to (2, 1).",
-        "UNREACHABLE",
+        "nothing is raised",
+        "small, seed 0, …: Yard.prepare raised ValueError: joint value 1 of a goal is …, outside of its limits 0 to 1: "
+        "refuse an action that would need it, or widen `low` and `high` (yard.py:…).",
+        "The sentence says what MotionProblem takes.",
     ),
     "coarse resolution": Planted(
         with_query(resolution=lambda env: 0.5),

@@ -7,6 +7,7 @@ from itertools import count
 from planted import Planted
 
 from llm3 import LLMBackend
+from llm3.errors import BackendError
 from llm3.types import Completion, Stats
 
 
@@ -33,6 +34,10 @@ def a_backend(**parts):
 def numbering():
     calls = count()
     return lambda self, request: f"reply {next(calls)}"
+
+
+def refusing(self, request):
+    raise BackendError("the program 'nosuchprog' is not installed")
 
 
 def closing_once(self):
@@ -85,10 +90,16 @@ FAULTS: dict[str, Planted] = {
         "Backend.complete raised ZeroDivisionError: division by zero (broken_backends.py:…).",
         "ends a run",
     ),
+    "never answers": Planted(
+        a_backend(text=refusing),
+        "requests are answered",
+        "none of 2 requests was answered: the program 'nosuchprog' is not installed",
+        "The error says why",
+    ),
     "draws for itself": Planted(
         a_backend(text=numbering()),
         "equal requests get equal answers",
-        "two equal requests get 'reply 0' and 'reply 2'.",
+        "two equal requests get 'reply 0' and then 'reply 2'.",
         "request.seed",
     ),
     "closed only once": Planted(

@@ -49,6 +49,18 @@ def shuffled():
     return told_with(lambda feedback: replace(feedback, summary=f"{feedback.summary} Take {next(calls)}."))
 
 
+def without_words_for(kind):
+    """A level that says nothing of one kind of failure."""
+
+    def remark(self, outcome):
+        found = Plain.remark(self, outcome)
+        left_out = outcome.failure is not None and outcome.failure.kind is kind
+        return replace(found, text=" ".join(f"{note}." for note in outcome.notes)) if left_out else found
+
+    return a_level(remark=remark)
+
+
+KNOWN = {FailureKind.PRECONDITION: "it is not possible here"}
 FAULTS: dict[str, Planted] = {
     "words alone": Planted(
         told_with(lambda feedback: feedback.summary),
@@ -89,6 +101,31 @@ FAULTS: dict[str, Planted] = {
         "failures name their objects",
         "no path within budget, alone: 'no way was found.' does not name oak_shelf, which is to blame.",
         "NO_PATH",
+    ),
+    "no words for a kind of motion failure": Planted(
+        without_words_for(FailureKind.NO_PATH),
+        "no kind of failure is left out",
+        "it tells nothing of the kind 'no path within budget', though it tells of unreachable, goal in collision, "
+        "start in collision.",
+        "a sentence for each FailureKind",
+    ),
+    "no words for a kind that is no motion failure": Planted(
+        without_words_for(FailureKind.INVALID_ACTION),
+        "no kind of failure is left out",
+        "it tells nothing of the kind 'invalid action', though it tells of precondition.",
+        "a sentence for each FailureKind",
+    ),
+    "knows the kinds by a table": Planted(
+        a_level(why=lambda self, failure: KNOWN[failure.kind]),
+        "nothing is raised",
+        "Level.synthesize raised KeyError: <FailureKind.UNREACHABLE: 'unreachable'> (broken_feedback.py:…).",
+        "there are words for every attempt, also for one without a plan, and for a failure of every kind",
+    ),
+    "no text": Planted(
+        a_level(remark=lambda self, outcome: replace(Plain.remark(self, outcome), text=None)),
+        "every attempt is answered",
+        "a plan that falls short: a text of the feedback is None.",
+        "What has nothing to say is ''.",
     ),
     "unreadable without a reason": Planted(
         a_level(

@@ -171,8 +171,8 @@ TO_A_MODEL: dict[str, Planted] = {
     "description without the bell": Planted(
         a_yard(describe=lambda self, state: tuple(e for e in Yard.describe(self, state) if e.name != "bell")),
         "the description follows the state",
-        "no application of 'ring' changes the description, such as ring([], {}).",
-        "leaves out what this action does",
+        "ring([], {}) changes the fact 'rung', and the description with that alone changed is the same.",
+        "state.facts",
     ),
 }
 OF_ITS_STATES: dict[str, Planted] = {

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import broken_answers
+import broken_changes
+import broken_memories
 import broken_words
 import pytest
 from yard import Yards
@@ -12,7 +14,7 @@ import llm3_words.plugin
 from llm3 import Registry, Strategy, hookimpl
 from llm3.testing import check_domain
 
-FAULTS = broken_words.FAULTS | broken_answers.FAULTS
+FAULTS = broken_words.FAULTS | broken_answers.FAULTS | broken_memories.FAULTS | broken_changes.FAULTS
 
 
 class OneStrategy:
@@ -32,7 +34,19 @@ def registry() -> Registry:
 
 
 def test_a_domain_without_a_fault_has_no_complaint():
-    assert check_domain(Yards()) == ()
+    assert check_domain(Yards()) == check_domain(broken_memories.SOUND) == ()
+
+
+@pytest.mark.parametrize("fault", ["one verdict too few", "a verdict for each joint", "one verdict for all"])
+def test_what_follows_from_a_malformed_answer_is_not_told(registry, fault):
+    (complaint,) = check_domain(FAULTS[fault].plugin, seeds=(0,), registry=registry)
+    assert complaint.rule == "validity is one answer a configuration"
+
+
+@pytest.mark.parametrize("fault", broken_memories.FAULTS)
+def test_what_a_world_remembers_is_told_first(registry, fault):
+    first, *_ = check_domain(FAULTS[fault].plugin, seeds=(0,), registry=registry)
+    assert first.rule == FAULTS[fault].rule
 
 
 @pytest.mark.parametrize("fault", FAULTS)

@@ -12,6 +12,10 @@ import pytest
 from broken_strategies import of, write_package
 
 from llm3.testing import check_backend, check_feedback, check_strategy, check_timer
+from llm3.types import FailureKind
+from llm3_words import synthesizers
+from llm3_words.sentences import sentence_of
+from llm3_words.synthesizers import Binary, Categorized, Silent
 
 CHECKS = {
     "feedback": (check_feedback, broken_feedback.FAULTS),
@@ -34,6 +38,17 @@ def test_what_has_no_fault_has_no_complaint():
     assert check_backend(broken_backends.Echo()) == ()
     assert check_strategy(of("good")) == check_strategy(of("own task")) == ()
     assert check_timer(broken_timers.Steady()) == ()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in FailureKind if kind is not FailureKind.UNREADABLE_REPLY])
+@pytest.mark.parametrize("nothing", ["", None])
+def test_a_kind_of_failure_without_words_is_found_in_the_levels_that_ship(monkeypatch, kind, nothing):
+    monkeypatch.setattr(synthesizers, "sentence_of", lambda f: nothing if f.kind is kind else sentence_of(f))
+    said = [c.text for c in check_feedback(Categorized()) if c.rule == "no kind of failure is left out"]
+    assert [text.startswith(f"it tells nothing of the kind {kind.value!r}, though") for text in said] == [True]
+    binary = [c.text for c in check_feedback(Binary()) if c.rule == "no kind of failure is left out"]
+    assert binary == ([] if kind.is_motion else said)
+    assert check_feedback(Silent()) == ()
 
 
 @pytest.mark.parametrize(("kind", "fault"), PLANTED)

@@ -69,6 +69,47 @@ def test_a_plugin_that_raises_is_a_complaint_with_its_place(command, install):
     )
 
 
+UNHEARD = """
+from llm3 import LLMBackend, hookimpl
+from llm3.errors import BackendError
+from llm3.types import Completion
+
+class Program(LLMBackend):
+    def __init__(self, name):
+        self.name, self.asked = name, 0
+    def complete(self, request):
+        self.asked += 1
+        if self.name == "nosuchprog" or self.asked > 1:
+            raise BackendError(f"the program {self.name!r} does not answer.")
+        return Completion("{}")
+
+@hookimpl
+def llm3_backends():
+    return {"program": lambda settings: Program(settings.argument)}
+"""
+
+
+def test_a_backend_that_never_answers_is_told_with_the_reason(command, install):
+    install("llm3_unheard", UNHEARD)
+    ended = command("check program:nosuchprog")
+    assert (ended.code, ended.err) == (1, "")
+    assert ended.out.splitlines() == [
+        "none of 2 requests was answered: the program 'nosuchprog' does not answer. The error says why; what does not "
+        "answer cannot be looked at.",
+        "backend 'program:nosuchprog': 1 fault (6 rules).",
+    ]
+
+
+def test_a_backend_that_answers_once_is_told_of_the_other_time_in_a_remark(command, install):
+    install("llm3_heard_once", UNHEARD)
+    ended = command("check program:tired")
+    assert (ended.code, ended.err) == (0, "")
+    assert ended.out.splitlines() == [
+        "remark: It gave no answer, so that could not be looked at: the program 'tired' does not answer.",
+        "backend 'program:tired': no fault (6 rules).",
+    ]
+
+
 @pytest.mark.parametrize(
     ("line", "said"),
     [

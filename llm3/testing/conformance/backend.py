@@ -11,6 +11,7 @@ from llm3.parsing import reply_schema
 from llm3.testing.conformance.attempts import SKELETON, context, trace
 from llm3.testing.conformance.complaint import Complaint, Report
 from llm3.testing.conformance.inspection import Fault, Inspection
+from llm3.testing.conformance.values import apart
 from llm3.testing.scripted import ScriptedLLM
 from llm3.types import Completion, Context, Message, Request, Stats
 
@@ -28,22 +29,25 @@ def _request(seed: int, of: Context) -> Request:
     return Request(messages, of, seed, reply_schema(of.actions, of.objects, of.skeleton), 60.0)
 
 
+INSTEAD = "what a model, a server or a file does wrong is a BackendError, with a sentence for the user"
 REQUESTS = (_request(1, context(skeleton=SKELETON)), _request(2, context(trace(), SKELETON)))
 
 
 class Answering:
     """A backend at work."""
 
-    def __init__(self, backend: LLMBackend, inspection: Inspection) -> None:
-        self.backend, self._inspection = backend, inspection
+    def __init__(self, backend: LLMBackend) -> None:
+        self.backend = backend
+        self.refusals: list[BackendError] = []
+        """Why there was no answer."""
         self._answers: list[Completion] | None = None
 
     def completed(self, request: Request) -> Completion | None:
-        """The answer; None, and a remark, if there is none to be had."""
+        """The answer; None if there is none to be had."""
         try:
             return self.backend.complete(request)
         except BackendError as error:
-            self._inspection.remark(f"It gave no answer, so that could not be looked at: {error}")
+            self.refusals.append(error)
             return None
 
     @property
@@ -79,7 +83,12 @@ def a_backend_says_what_it_is(answering: Answering) -> Iterator[Fault]:
 
 
 def requests_are_answered(answering: Answering) -> Iterator[Fault]:
-    """Messages in, Completion out, whose text is a text; no other error than a BackendError."""
+    """Messages in, Completion out, whose text is a text; no other error than a BackendError, and not each time."""
+    if not answering.answers and answering.refusals:
+        yield Fault(
+            f"none of {len(REQUESTS)} requests was answered: {answering.refusals[0]}",
+            "The error says why; what does not answer cannot be looked at.",
+        )
     for answer in answering.answers:
         if not isinstance(answer, Completion):
             yield Fault(f"complete answers {answer!r:.80}.", "It answers Completion(text), and not the text alone.")
@@ -113,7 +122,7 @@ def equal_requests_get_equal_answers(answering: Answering) -> Iterator[Fault]:
     again = answering.completed(REQUESTS[0])
     if again is not None and again.text != answering.answers[0].text:
         yield Fault(
-            f"two equal requests get {answering.answers[0].text!r:.60} and {again.text!r:.60}.",
+            f"two equal requests get {apart(answering.answers[0].text, again.text)}.",
             "Draw from np.random.default_rng(request.seed) and from nothing else.",
         )
 
@@ -141,6 +150,9 @@ def check_backend(backend: LLMBackend) -> tuple[Complaint, ...]:
 
 def examine_backend(backend: LLMBackend) -> Report:
     """Like :func:`check_backend`, with the remarks and with what was looked at."""
-    inspection = Inspection()
-    inspection.apply(RULES, Answering(backend, inspection))
+    inspection = Inspection(INSTEAD)
+    answering = Answering(backend)
+    inspection.apply(RULES, answering)
+    for refusal in answering.refusals if answering.answers else ():
+        inspection.remark(f"It gave no answer, so that could not be looked at: {refusal}")
     return inspection.report

@@ -10,7 +10,7 @@ from llm3.interfaces import PlanVerifier
 from llm3.parsing import parse_reply
 from llm3.solve import context_of
 from llm3.testing.conformance.inspection import Fault
-from llm3.testing.conformance.purity_rules import departures
+from llm3.testing.conformance.twin_rules import departures
 from llm3.testing.conformance.world import World
 from llm3.types import Proposal, Rejected, Shape, Sketch, Verification
 
@@ -136,5 +136,4 @@ RULES = (
     regions_are_parts_of_the_ranges,
     the_stand_in_answers_as_a_model_should,
     the_view_from_above_is_drawn_alike,
-    a_remade_world_is_like_a_new_one,
 )

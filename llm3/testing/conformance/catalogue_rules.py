@@ -7,6 +7,7 @@ from dataclasses import dataclass, is_dataclass
 from typing import Any
 
 from llm3.errors import InputError
+from llm3.guarded import place
 from llm3.interfaces import Domain, Options
 from llm3.jsonio import loads, pretty
 from llm3.testing.conformance.inspection import Fault
@@ -88,6 +89,26 @@ def options_stay_as_they_are_in_a_record(subject: Catalogue) -> Iterator[Fault]:
         )
 
 
+def every_choice_of_an_option_makes_a_world(subject: Catalogue) -> Iterator[Fault]:
+    """With each choice of each option, the others at their defaults, the first problem is made and has a state."""
+    domain, setting = subject.domain, subject.settings[0]
+    defaults = default_options(domain)
+    for option in domain.options:
+        for choice in option.choices:
+            if choice == option.default:
+                continue
+            try:
+                env = domain.make(domain.instance(setting, 0), {**defaults, option.name: choice})
+                env.reset()
+                env.close()
+            except (Exception, SystemExit) as error:
+                yield Fault(
+                    f"with {option.name}={choice} no world of {setting!r}, seed 0, is made: "
+                    f"{type(error).__name__}: {error} ({place(error)}).",
+                    "A choice that is offered is one that works: take it out of the choices, or mend make.",
+                )
+
+
 def the_same_seed_gives_the_same_instance(subject: Catalogue) -> Iterator[Fault]:
     """Two calls of instance with the same arguments are equal, and of the domain's instance type."""
     for setting in subject.settings:
@@ -139,3 +160,5 @@ RULES = (
     another_seed_gives_another_instance,
     instances_survive_a_file,
 )
+LAST_RULES = (every_choice_of_an_option_makes_a_world,)
+"""Looked at after all others: they make more worlds, and close them."""

@@ -11,12 +11,15 @@ from llm3.registry import Registry
 from llm3.testing.conformance import (
     capability_rules,
     catalogue_rules,
+    description_rules,
+    memory_rules,
     motion_rules,
     outcome_rules,
     purity_rules,
     schema_rules,
     state_rules,
     text_rules,
+    twin_rules,
 )
 from llm3.testing.conformance.catalogue_rules import Catalogue, default_options
 from llm3.testing.conformance.complaint import Complaint, Report
@@ -27,19 +30,31 @@ from llm3.testing.conformance.motion_rules import NO_EXPLANATION
 from llm3.testing.conformance.world import World
 from llm3.types import ActionSchema
 
-WORLD_RULES = (
-    *state_rules.RULES,
-    *schema_rules.RULES,
-    *outcome_rules.RULES,
-    *motion_rules.RULES,
-    *text_rules.RULES,
-    *purity_rules.RULES,
-    *capability_rules.RULES,
-)
+INSTEAD = "every state has an answer, and what the robot cannot do is a Failure, and not an exception"
+FIRST_RULES = (*state_rules.RULES, *schema_rules.RULES, *outcome_rules.RULES)
+MEMORY_RULES = memory_rules.RULES
+"""Looked at before other rules are misled by what a world remembers."""
+WORLD_RULES = (*motion_rules.RULES, *text_rules.RULES, *description_rules.RULES, *capability_rules.RULES)
+PURITY_RULES = purity_rules.RULES
+TWIN_RULES = (*twin_rules.RULES, capability_rules.a_remade_world_is_like_a_new_one)
+"""Looked at where a world keeps nothing to itself; another could not be compared with it."""
 DEAR_RULES = (capability_rules.the_verifier_tells_good_plans_from_bad,)
 """Looked at in the first problem of each setting only."""
-LAST_RULES = (purity_rules.closing_twice_does_no_harm,)
+LAST_RULES = (twin_rules.closing_twice_does_no_harm,)
 """The world is closed after them."""
+RULES = (
+    catalogue_rules.a_domain_says_what_it_is,
+    *catalogue_rules.RULES,
+    *FIRST_RULES,
+    *MEMORY_RULES,
+    *WORLD_RULES,
+    *DEAR_RULES,
+    *PURITY_RULES,
+    *TWIN_RULES,
+    *LAST_RULES,
+    *catalogue_rules.LAST_RULES,
+)
+"""All of them, in the order in which they are looked at."""
 
 
 def check_domain(
@@ -77,7 +92,7 @@ def examine_domain(
     Raises:
         UnknownName: The domain has no such setting.
     """
-    inspection = Inspection()
+    inspection = Inspection(INSTEAD)
     inspection.apply((catalogue_rules.a_domain_says_what_it_is,), Catalogue(domain, ()))
     if inspection.report.complaints:
         return inspection.report  # what follows goes by these names
@@ -90,6 +105,7 @@ def examine_domain(
         inspection.remark(f"No planner {PLANNER!r} is registered, so no motion was carried out.")
     problems = [(name, seed) for name in settings for seed in seeds]
     worlds = list(_looked_at(domain, problems, helpers, inspection))
+    inspection.apply(catalogue_rules.LAST_RULES, Catalogue(domain, settings))
     _remark_on(worlds, inspection)
     return inspection.report
 
@@ -126,9 +142,16 @@ def _looked_at(
             inspection.worlds += 1
             explore(world, inspection)
             dear = DEAR_RULES if seed == problems[0][1] else ()
-            inspection.apply((*WORLD_RULES, *dear, *LAST_RULES), world, where)
-            for refusal in world.errors:
-                inspection.refused(refusal, where)
+            inspection.apply(FIRST_RULES, world, where)
+            pure = inspection.apply(MEMORY_RULES, world, where)
+            inspection.apply((*WORLD_RULES, *dear), world, where)
+            pure &= inspection.apply(PURITY_RULES, world, where)
+            if pure:
+                inspection.apply(TWIN_RULES, world, where)
+            inspection.apply(LAST_RULES, world, where)
+            for stumble in world.errors:
+                by_the_world = str(stumble).startswith(f"{type(env).__name__}.")
+                (inspection.raised if by_the_world else inspection.stumbled)(stumble, where)
             if world.remade is not None:
                 open_worlds = [other for other in open_worlds if other is not spare] + [world.remade]
             spare = world.remade or spare or twin

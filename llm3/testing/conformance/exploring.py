@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import islice
 
 import numpy as np
 
 from llm3.budget import Budget
-from llm3.errors import PluginError
 from llm3.search import search
 from llm3.search.moves import Move, moves_of
 from llm3.seeding import generator
 from llm3.solve import solve
 from llm3.testing.conformance.helpers import STRATEGY
 from llm3.testing.conformance.inspection import Inspection
-from llm3.testing.conformance.world import World, tried
+from llm3.testing.conformance.world import World, spread, tried
 from llm3.testing.scripted import ScriptedLLM, stand_in_script
-from llm3.types import Action, ActionTried, RunEvent, State
+from llm3.types import Action, ActionTried, RunEvent, Sketch, State
 
 LED = Budget(max_llm_calls=10, max_motion_calls=100)
 """What a domain's stand-in may spend."""
@@ -26,6 +26,8 @@ WORKED, FAILED = 3, 2
 """How many actions of each kind are taken over from those."""
 AT_START, LATER = 4, 2
 """How many actions of each kind are drawn in the initial state, and in each of some later ones."""
+EACH = 40
+"""How many actions are drawn, at most, so that each object stands once at each place of each kind of action."""
 STATES = 3
 """How many later states."""
 PATIENCE = 30
@@ -54,13 +56,12 @@ def explore(world: World, inspection: Inspection) -> None:
             world.trials.append(trial)
 
     attempt(_drawn(moves, [world.start], AT_START, rng))
+    attempt(islice(_each(world, moves, rng), EACH))
     watch = _Watch()
     try:
         _solved(world, watch)
-    except PluginError as error:
-        world.errors.append(error)
     except (Exception, SystemExit) as error:
-        inspection.raised(error, where)
+        world.errors.append(error)
     attempt(watch.chosen())
     attempt(_drawn(moves, watch.states(world.start), LATER, rng))
     states = [world.start, *watch.states(world.start)]
@@ -72,6 +73,20 @@ def explore(world: World, inspection: Inspection) -> None:
                 break
             state = states[rng.integers(len(states))]
             attempt([(state, of_kind[rng.integers(len(of_kind))].drawn(rng))])
+
+
+def _each(world: World, moves: tuple[Move, ...], rng: np.random.Generator) -> Iterator[Pair]:
+    """In the initial state, each object at each place of each kind of action where it was not yet, in some company."""
+    seen = {place for trial in world.trials for place in _places(trial.action)}
+    for number in rng.permutation(len(moves)):
+        move = moves[number]
+        if not _places(move.sketch) <= seen:
+            seen |= _places(move.sketch)
+            yield world.start, move.drawn(rng)
+
+
+def _places(of: Action | Sketch) -> set[tuple[str, int, str]]:
+    return {(of.name, place, name) for place, name in enumerate(of.objects)}
 
 
 def _drawn(moves: tuple[Move, ...], states: list[State], count: int, rng: np.random.Generator) -> Iterator[Pair]:
@@ -127,9 +142,7 @@ class _Watch:
 
     def states(self, start: State) -> list[State]:
         """Some states that were reached, spread over the run."""
-        reached = [state for state in self._after if state != start]
-        at = sorted({round(i) for i in np.linspace(0, len(reached) - 1, STATES)}) if reached else []
-        return [reached[i] for i in at]
+        return spread([state for state in self._after if state != start], STATES)
 
 
 def _some(pairs: list[Pair], count: int) -> Iterator[Pair]:
@@ -137,4 +150,4 @@ def _some(pairs: list[Pair], count: int) -> Iterator[Pair]:
     for pair in dict.fromkeys(pairs):
         kinds.setdefault(pair[1].name, []).append(pair)
     for of_kind in kinds.values():
-        yield from of_kind[:: max(1, len(of_kind) // count)][:count]
+        yield from spread(of_kind, count)

@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from llm3.testing.conformance.inspection import Fault
-from llm3.testing.conformance.values import configuration, samples, some_goals
+from llm3.testing.conformance.samples import malformed, samples, some_goals
+from llm3.testing.conformance.values import configuration
 from llm3.testing.conformance.world import World
 from llm3.types import Contact, Goal, MotionProblem
 
@@ -30,24 +31,22 @@ def a_motion_begins_where_the_robot_is(world: World) -> Iterator[Fault]:
             )
 
 
-def limits_hold_the_start_and_the_goals(world: World) -> Iterator[Fault]:
-    """Limits are finite, low is below high, and start, goals and what follows them lie between."""
+def limits_hold_what_follows_a_goal(world: World) -> Iterator[Fault]:
+    """Limits are finite, low is below high, and what follows a goal lies between, as start and goals do."""
     for trial, problem in world.queries:
         low, high = problem.low, problem.high
         if not (np.isfinite(low).all() and np.isfinite(high).all() and (low <= high).all()):
             text = f"the limits of {trial} are {configuration(low)} to {configuration(high)}."
             yield Fault(text, "A joint that turns without end needs finite limits, too, such as -2π and 2π.")
             continue
-        goals = some_goals(problem)
-        inside = [("start", problem.start), *(("goal", np.array(g.configuration)) for g in goals)]
-        inside += [(s.label, np.array(w)) for g in goals for s in g.then for w in s.waypoints]
-        for name, q in inside:
-            if q.shape == low.shape and ((q < low - 1e-6) | (q > high + 1e-6)).any():
-                yield Fault(
-                    f"the {name} {configuration(q)} of {trial} is outside of {configuration(low)} to "
-                    f"{configuration(high)}.",
-                    "Refuse such a goal as UNREACHABLE, or widen the limits: no planner leaves them.",
-                )
+        for segment in (segment for goal in some_goals(problem) for segment in goal.then):
+            for q in map(np.array, segment.waypoints):
+                if q.shape == low.shape and ((q < low - 1e-6) | (q > high + 1e-6)).any():
+                    yield Fault(
+                        f"the piece {segment.label!r} of {trial} goes to {configuration(q)}, outside of "
+                        f"{configuration(low)} to {configuration(high)}.",
+                        "Refuse such a goal as UNREACHABLE, or widen the limits: no joint leaves them.",
+                    )
 
 
 def the_resolution_is_fine(world: World) -> Iterator[Fault]:
@@ -63,19 +62,18 @@ def the_resolution_is_fine(world: World) -> Iterator[Fault]:
 
 def validity_is_one_answer_a_configuration(world: World) -> Iterator[Fault]:
     """The test takes (N, dof) and answers (N,), the same one by one and again, and leaves what it is given alone."""
+    for trial, problem in world.malformed:
+        yield Fault(
+            f"the validity test of {trial} answers {malformed(problem)}.",
+            "It takes one configuration a row, and answers a numpy array of bool, one for each row.",
+        )
+        return
     for trial, problem in world.queries:
         at = samples(problem)
         given = at.copy()
         mask = problem.valid(at)
         if not np.array_equal(at, given):
             yield Fault(f"the validity test of {trial} changes the configurations that it is given.", "Work on a copy.")
-        if not isinstance(mask, np.ndarray) or mask.shape != (len(at),) or mask.dtype != bool:
-            shown = f"{mask.dtype} {mask.shape}" if isinstance(mask, np.ndarray) else repr(mask)
-            yield Fault(
-                f"the validity test of {trial} answers {shown} for configurations of shape {given.shape}.",
-                "It takes one configuration a row, and answers a numpy array of bool, one for each row.",
-            )
-            return
         if not np.array_equal(mask, problem.valid(given.copy())):
             yield Fault(f"the validity test of {trial} does not answer the same twice.", "It must not draw or count.")
         alone = np.array([problem.valid(q[None])[0] for q in given])
@@ -182,7 +180,7 @@ def goals_lead_on_without_a_jump(world: World) -> Iterator[Fault]:
 
 RULES = (
     a_motion_begins_where_the_robot_is,
-    limits_hold_the_start_and_the_goals,
+    limits_hold_what_follows_a_goal,
     the_resolution_is_fine,
     validity_is_one_answer_a_configuration,
     the_robot_can_leave_its_start,

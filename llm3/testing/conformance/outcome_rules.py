@@ -130,6 +130,21 @@ def no_object_and_no_fact_gets_lost(world: World) -> Iterator[Fault]:
             )
 
 
+def what_is_taken_was_somewhere(world: World) -> Iterator[Fault]:
+    """What an action takes into the hand stood somewhere before; of worlds that keep no poses nothing is said."""
+    if not world.start.poses:
+        return
+    for trial in world.applied:
+        if trial.transition is None or trial.transition.state.held is None:
+            continue
+        before, name = trial.state, trial.transition.state.held.object
+        if name not in before.poses and (before.held is None or before.held.object != name):
+            yield Fault(
+                f"{trial} picks up {name!r}, which stood nowhere.",
+                "Any object can stand in any slot of an action: prepare refuses what makes no sense as a PRECONDITION.",
+            )
+
+
 def the_grip_is_what_the_events_say(world: World) -> Iterator[Fault]:
     """After a motion with an attach event the object is held, and after a detach event it is not."""
     for trial in world.applied:
@@ -163,6 +178,7 @@ RULES = (
     apply_answers_a_transition,
     the_robot_is_where_its_motion_ends,
     no_object_and_no_fact_gets_lost,
+    what_is_taken_was_somewhere,
     the_grip_is_what_the_events_say,
     something_can_be_done,
 )

@@ -10,6 +10,9 @@ from llm3.testing.conformance.plane import CASES
 from llm3.testing.conformance.planning import Planning
 from llm3.types import Path
 
+INSTEAD = "what cannot be planned is a Failure, and not an exception"
+RULES = (*planner_rules.RULES, *path_rules.RULES)
+
 
 def check_planner(planner: MotionPlanner, *, max_iterations: int | None = None) -> tuple[Complaint, ...]:
     """Look for faults in a motion planner, on small worlds in the plane.
@@ -23,9 +26,9 @@ def check_planner(planner: MotionPlanner, *, max_iterations: int | None = None) 
 
 def examine_planner(planner: MotionPlanner, *, max_iterations: int | None = None) -> Report:
     """Like :func:`check_planner`, with the remarks and with what was looked at."""
-    inspection = Inspection()
+    inspection = Inspection(INSTEAD)
     planning = Planning(planner, max_iterations)
-    inspection.apply((*planner_rules.RULES, *path_rules.RULES), planning)
+    inspection.apply(RULES, planning)
     inspection.worlds = len(CASES)
     for case in CASES:
         possible = not case.failure and not inspection.report.complaints

@@ -14,6 +14,7 @@ from llm3.testing.conformance.values import programmer_talk
 from llm3.types import Context, Message
 
 _HOLE = re.compile(r"\{\{|\}\}|\{%|%\}|\bNone\b|\bUndefined\b")
+INSTEAD = "a template writes a prompt for every context"
 ANSWER_KEY = "Full Plan"
 """How the asked-for reply calls the plan."""
 
@@ -147,7 +148,7 @@ def check_strategy(strategy: Strategy) -> tuple[Complaint, ...]:
 
 def examine_strategy(strategy: Strategy) -> Report:
     """Like :func:`check_strategy`, with what was looked at."""
-    inspection = Inspection()
+    inspection = Inspection(INSTEAD)
     try:
         asking = Asking(strategy)
     except Exception as error:

@@ -14,6 +14,7 @@ from llm3.testing.conformance.inspection import Fault, Inspection
 from llm3.testing.conformance.values import configuration
 from llm3.types import Trajectory, Vector
 
+INSTEAD = "there is a trajectory along every path, also along one that stands still"
 NEAR = 1e-6
 """How near to a waypoint is through it."""
 ASTRAY = 0.01
@@ -183,6 +184,6 @@ def check_timer(timer: TrajectoryTimer) -> tuple[Complaint, ...]:
 
 def examine_timer(timer: TrajectoryTimer) -> Report:
     """Like :func:`check_timer`, with what was looked at."""
-    inspection = Inspection()
+    inspection = Inspection(INSTEAD)
     inspection.apply(RULES, Timing(timer))
     return inspection.report

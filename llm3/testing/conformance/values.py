@@ -5,41 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
-from itertools import islice
 from typing import Any
 
 import numpy as np
 
-from llm3.types import Failure, MotionProblem, NoMotion, Stats, Transition, Vector
+from llm3.testing.conformance.samples import samples, some_goals
+from llm3.types import Failure, MotionProblem, NoMotion, Stats, Transition
 
 _PROGRAMMER_TALK = re.compile(
     r"np\.(?:float|int|str|bool)|\barray\(|\bdtype=|<[\w.]+ object at 0x|\bnan\b|\bEntity\(|\bPose\(|\bFrozenDict\b"
 )
-WIDE = 100.0
-GOALS = 3
-"""How many goals of a motion problem are looked at: they may be dear to make."""
+LONGEST, BEFORE = 120, 40
+"""How much is shown of a value, and how much of that before the first difference."""
 
 
 def programmer_talk(text: str) -> str:
     """What in a text is written for a programmer and not for a model, such as ``np.float64``; empty if nothing is."""
     found = _PROGRAMMER_TALK.search(text)
     return found.group() if found else ""
-
-
-def some_goals(problem: MotionProblem) -> list[Any]:
-    """The first goals of a motion problem."""
-    return list(islice(problem.goals, GOALS))
-
-
-def samples(problem: MotionProblem, count: int = 24) -> Vector:
-    """Configurations to ask about, the same for equal problems: the start, some goals, and others within the limits."""
-    ends = [problem.start, *(np.array(goal.configuration) for goal in some_goals(problem))]
-    low, high = (
-        np.clip(problem.low, -WIDE, WIDE),
-        np.clip(problem.high, -WIDE, WIDE),
-    )  # another rule refuses endless ones
-    drawn = np.random.default_rng(0).uniform(low, high, size=(count, len(problem.start)))
-    return np.vstack([*ends, drawn])
 
 
 def difference(one: Any, other: Any, name: str = "it") -> str:
@@ -54,7 +37,7 @@ def _differences(one: Any, other: Any, name: str) -> Iterator[str]:
         yield from _problems(one, other)
     elif isinstance(one, np.ndarray):
         if not np.array_equal(one, other):
-            yield f"{name} is {_shown(one.tolist())} and then {_shown(other.tolist())}"
+            yield f"{name} is {apart(one.tolist(), other.tolist())}"
     elif isinstance(one, Failure | Transition | NoMotion) or (is_dataclass(one) and not isinstance(one, type)):
         for field in fields(one):
             if not isinstance(getattr(one, field.name), Stats):
@@ -63,7 +46,7 @@ def _differences(one: Any, other: Any, name: str) -> Iterator[str]:
         for key in one:
             yield from _differences(one[key], other[key], f"{name}[{key!r}]")
     elif one != other:
-        yield f"{name} is {_shown(one)} and then {_shown(other)}"
+        yield f"{name} is {apart(one, other)}"
 
 
 def _problems(one: MotionProblem, other: MotionProblem) -> Iterator[str]:
@@ -78,12 +61,21 @@ def _problems(one: MotionProblem, other: MotionProblem) -> Iterator[str]:
     masks = np.asarray(one.valid(at)), np.asarray(other.valid(at))
     if masks[0].shape == masks[1].shape and (masks[0] != masks[1]).any():
         where = at[np.flatnonzero(masks[0] != masks[1])[0]]
-        yield f"valid answers differently at {_shown(where.tolist())}"
+        yield f"valid answers differently at {configuration(where)}"
 
 
-def _shown(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 120 else f"{text[:117]}..."
+def apart(one: Any, other: Any) -> str:
+    """Two values in a sentence; of long ones what stands around the first difference."""
+    texts = repr(one), repr(other)
+    differ = next((i for i, (a, b) in enumerate(zip(*texts, strict=False)) if a != b), min(map(len, texts)))
+    return " and then ".join(_cut(text, max(0, differ - BEFORE)) for text in texts)
+
+
+def _cut(text: str, begin: int) -> str:
+    if len(text) <= LONGEST:
+        return text
+    end = begin + LONGEST - 2
+    return ("…" if begin else "") + text[begin:end] + ("…" if end < len(text) else "")
 
 
 def configuration(values: Any) -> str:

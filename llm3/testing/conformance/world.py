@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
-from llm3.errors import PluginError
+import numpy as np
+
 from llm3.interfaces import Domain, Env, Options, Regions
 from llm3.seeding import generator
 from llm3.testing.conformance.helpers import Helpers
-from llm3.testing.conformance.values import samples
+from llm3.testing.conformance.samples import malformed
 from llm3.types import (
     Action,
     Failure,
-    Mask,
     Motion,
     MotionProblem,
     NoMotion,
@@ -25,6 +25,7 @@ from llm3.types import (
     Transition,
 )
 
+T = TypeVar("T")
 QUERIES = 4
 """How many motion problems of each kind of action are looked at."""
 
@@ -37,8 +38,8 @@ class Trial:
     action: Action
     answer: MotionProblem | NoMotion | Failure
     """What `prepare` answered."""
-    mask: Mask | None = None
-    """What the validity test of a motion problem said at once, of its `samples`."""
+    malformed: bool = False
+    """Whether it is a motion problem whose validity test does not answer as it should, so that none can plan it."""
     failure: Failure | None = None
     """Why it cannot be done, by the Env or by the planner; None if it can, or if there was no planner."""
     motion: Motion | None = None
@@ -47,6 +48,9 @@ class Trial:
 
     def __str__(self) -> str:
         return str(self.action)
+
+
+Query = tuple[Trial, MotionProblem]
 
 
 @dataclass(eq=False)
@@ -70,8 +74,8 @@ class World:
     """A solution, where one was found."""
     remade: Env | None = None
     """What became of the spare world, if the domain could use it."""
-    errors: list[PluginError] = field(default_factory=list)
-    """What a planner said of malformed problems."""
+    errors: list[BaseException] = field(default_factory=list)
+    """What was raised while a planner, a stand-in or a search was at work."""
     verified: bool = False
     """Whether the domain has a verifier."""
 
@@ -100,13 +104,33 @@ class World:
         return [trial for trial in self.trials if trial.failure is not None]
 
     @property
-    def queries(self) -> list[tuple[Trial, MotionProblem]]:
+    def queries(self) -> list[Query]:
         """What needed a motion: some of each kind of action, as a look at each is dear."""
-        found: dict[str, list[tuple[Trial, MotionProblem]]] = {}
+        return self.some_queries(QUERIES)
+
+    def some_queries(self, count: int) -> list[Query]:
+        """What needed a motion: so many of each kind of action."""
+        kinds: dict[str, list[Query]] = {}
         for trial in self.trials:
-            if isinstance(trial.answer, MotionProblem):
-                found.setdefault(trial.action.name, []).append((trial, trial.answer))
-        return [query for of_kind in found.values() for query in of_kind[:: max(1, len(of_kind) // QUERIES)][:QUERIES]]
+            if isinstance(trial.answer, MotionProblem) and not trial.malformed:
+                kinds.setdefault(trial.action.name, []).append((trial, trial.answer))
+        return [query for of_kind in kinds.values() for query in spread(of_kind, count)]
+
+    @property
+    def malformed(self) -> list[Query]:
+        """Motion problems whose validity test does not answer as it should."""
+        return [(t, t.answer) for t in self.trials if isinstance(t.answer, MotionProblem) and t.malformed]
+
+    @property
+    def states(self) -> list[State]:
+        """The initial state, and those that actions led to, each once."""
+        after = [trial.transition.state for trial in self.applied if isinstance(trial.transition, Transition)]
+        return list(dict.fromkeys([self.start, *(state for state in after if isinstance(state, State))]))
+
+
+def spread(items: Sequence[T], count: int) -> list[T]:
+    """So many of the items, the first and the last among them."""
+    return [items[i] for i in sorted({round(i) for i in np.linspace(0, len(items) - 1, count)})] if items else []
 
 
 def prepared(env: Env, state: State, action: Action) -> MotionProblem | NoMotion | Failure:
@@ -119,19 +143,27 @@ def tried(world: World, state: State, action: Action) -> Trial:
     answer = prepared(world.env, state, action)
     if isinstance(answer, Failure):
         return Trial(state, action, answer, failure=answer)
-    mask, motion = None, Motion()
+    motion = Motion()
     if isinstance(answer, MotionProblem):
-        mask = answer.valid(samples(answer))
+        if malformed(answer):
+            return Trial(state, action, answer, malformed=True)
         if world.helpers.planner is None:
-            return Trial(state, action, answer, mask)
+            return Trial(state, action, answer)
         try:
             path = world.helpers.planner.plan(answer, generator("plan", state, action))
-        except PluginError as error:  # the problem is malformed, of which a rule can say more
+        except Exception as error:  # a rule can say more of what is wrong with the problem
             world.errors.append(error)
-            return Trial(state, action, answer, mask)
+            return Trial(state, action, answer)
         if not isinstance(path, Path):
-            return Trial(state, action, answer, mask, path)
+            return Trial(state, action, answer, failure=path)
         motion = answer.motion(path)
     elif not isinstance(answer, NoMotion):
         return Trial(state, action, answer)
-    return Trial(state, action, answer, mask, None, motion, world.env.apply(state, action, motion))
+    return Trial(state, action, answer, False, None, motion, world.env.apply(state, action, motion))
+
+
+def applied(env: Env, trial: Trial) -> Transition | None:
+    """Where the action leads once more, maybe in another world; None if it was not carried out."""
+    if trial.motion is None or trial.transition is None:
+        return None
+    return env.apply(trial.state, trial.action, trial.motion)

@@ -8,6 +8,10 @@ from types import MappingProxyType
 
 TRIED = "--domain tabletop2d"
 """The problem on which plugins that are no domain are tried out."""
+TAUGHT = f"{TRIED} --setting clutter"
+"""One whose first plan fails, so that there is something to be told of it."""
+WORDS = ("none", "loop", "search")
+"""What stands in place of a plugin's name and is none: no plugin at all, and the solvers."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +28,12 @@ class Kind:
     """What the new package says of itself, in a line."""
     trial: str
     """The arguments of llm3 that try it out; NAME stands for its name."""
+    tried: str
+    """What llm3 does with these arguments."""
     checked: str = "NAME"
     """What ``llm3 check`` is given."""
+    used: tuple[str, ...] = ()
+    """The names by which llm3 itself asks for such a plugin, where the user names none."""
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
@@ -36,6 +44,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             "domain",
             "A point robot carries a ball around a pillar",
             "--domain NAME",
+            "solves the problem of seed 0; where no model is named, a stand-in draws the numbers",
         ),
         "planner": Kind(
             "a planner",
@@ -43,13 +52,17 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             "planner",
             "A motion planner: a rapidly exploring random tree",
             f"{TRIED} --planner NAME",
+            "solves a problem that ships with llm3, without a model; this planner plans its motions",
+            used=("birrt",),
         ),
         "feedback": Kind(
             "a feedback level",
             "feedback",
             "feedback",
             "Feedback that tells how far to move away",
-            f"{TRIED} --feedback NAME",
+            f"{TAUGHT} --feedback NAME",
+            "solves a problem whose first plan fails, without a model; what is told of it is in the record",
+            used=("categorized",),
         ),
         "backend": Kind(
             "a backend",
@@ -57,7 +70,9 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             "backend",
             "A model backend that asks a program",
             "doctor --llm NAME:cat",
+            "asks the program `cat` one tiny question, and tells what came back",
             checked="NAME:cat",  # a program that is everywhere, and echoes what it reads
+            used=("http", "offline", "random", "replay"),
         ),
         "strategy": Kind(
             "a strategy",
@@ -65,6 +80,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             "strategy",
             "A prompt strategy that asks in few words",
             f"prompt {TRIED} --strategy NAME",
+            "prints what a model would be sent, and asks none",
+            used=("backtrack",),
         ),
     }
 )
@@ -76,5 +93,6 @@ BULLET_DOMAIN = Kind(
     "bullet-domain",
     "A robot arm puts a box onto a mat",
     "--domain NAME",
+    "solves the problem of seed 0; where no model is named, a stand-in draws the numbers",
 )
 """A domain whose world is simulated by PyBullet."""

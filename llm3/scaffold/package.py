@@ -7,8 +7,8 @@ from pathlib import Path, PurePosixPath
 
 import jinja2
 
-from llm3.errors import LLM3Error, OutputExists
-from llm3.scaffold.kinds import Kind
+from llm3.errors import LLM3Error, OutputExists, UsageError
+from llm3.scaffold.kinds import WORDS, Kind
 from llm3.scaffold.name import Name
 
 COMMON = "common"
@@ -20,7 +20,15 @@ def render(kind: Kind, name: Name) -> Mapping[PurePosixPath, str]:
 
     What ends in ``.jinja`` is a template; other files are taken as they are, such as a prompt, which is a template
     itself.
+
+    Raises:
+        UsageError: llm3 uses the name itself where such a plugin is named.
     """
+    if name.plugin in (*WORDS, *kind.used):
+        raise UsageError(
+            f"llm3 uses {name.plugin!r} itself where a {kind.registered} is named: choose another name, such as "
+            f"my-{kind.registered}."
+        )
     loader = jinja2.PackageLoader("llm3.scaffold")
     environment = jinja2.Environment(
         loader=loader,
@@ -37,6 +45,7 @@ def render(kind: Kind, name: Name) -> Mapping[PurePosixPath, str]:
         "description": kind.description,
         "notes": f"notes/{kind.templates}.md.jinja",
         "trial": kind.trial.replace("NAME", name.plugin),
+        "tried": kind.tried,
         "checked": kind.checked.replace("NAME", name.plugin),
     }
     files: dict[PurePosixPath, str] = {}

@@ -40,7 +40,6 @@ def included(block: Block) -> tuple[Path, range]:
 
 def test_the_tutorial_is_the_package_and_nothing_else():
     text = page("first-domain")
-    assert {block.info.split()[0] for block in blocks(text)} == {"{literalinclude}", "console"}
     shown: dict[Path, set[int]] = {}
     for block in blocks(text, "{literalinclude}"):
         file, lines = included(block)
@@ -80,12 +79,10 @@ def test_the_code_on_the_python_page_runs_and_prints_what_it_says(corridor, caps
 
 @pytest.fixture
 def my_package(tmp_path, monkeypatch):
-    """The package that the examples speak of, with the template of the page on strategies in it."""
+    """The package that the examples speak of."""
     folder = tmp_path / "my_package"
     folder.mkdir()
     (folder / "__init__.py").write_text("")
-    (template,) = blocks(page("own-strategy"), "jinja")
-    (folder / "brief.j2").write_text(template.text)
     monkeypatch.syspath_prepend(tmp_path)
     yield folder
     sys.modules.pop("my_package", None)
@@ -111,18 +108,3 @@ def test_the_feedback_example_is_a_plugin_once_its_package_is_there(my_package):
     registry.register(plugin, "example")
     assert registry.names("feedback") == ("drawn",)
     sys.modules.pop("my_package.feedback")
-
-
-def test_the_code_on_the_page_on_strategies_runs(my_package):
-    namespace: dict[str, object] = {}
-    for block in blocks(page("own-strategy"), "python"):
-        exec(compile("\n" * block.line + block.text, "docs/own-strategy.md", "exec"), namespace)
-    assert "Do it." in namespace["user"].content
-
-
-@pytest.mark.parametrize("name", ["own-planner", "own-feedback", "own-model"])
-def test_the_code_of_a_tutorial_runs(corridor, name):
-    namespace: dict[str, object] = {}
-    for block in blocks(page(name), "python"):
-        exec(compile("\n" * block.line + block.text, f"docs/{name}.md", "exec"), namespace)
-    assert namespace["result"].solved

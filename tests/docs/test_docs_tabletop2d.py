@@ -7,7 +7,7 @@ from docs_pages import ROOT, blocks, names, page, table, tables
 
 from llm3.jsonio import loads
 from llm3.types import Contact, Failure, FailureKind
-from llm3_tabletop2d import actions, goal, manipulation, reach, settings, ways
+from llm3_tabletop2d import actions, instance, manipulation, reach, settings, ways
 from llm3_tabletop2d.domain import MAX_RADIUS, Tabletop2D
 from llm3_tabletop2d.instance import GoalSpec, ObjectSpec, RectangleSpec, TabletopInstance
 from llm3_words.sentences import sentence_of
@@ -63,7 +63,7 @@ def test_the_example_of_an_instance_file_loads():
         f"which keep {ways.MARGIN * 1000:g} mm",
         f"{manipulation.STANDOFF * 1000:g} mm away (`STANDOFF`) to {manipulation.TOUCH * 1000:g} mm (`TOUCH`)",
         f"up to {actions.MAX_VELOCITY:g} m/s and {actions.MAX_ACCELERATION:g} m/s²",
-        f"The tolerance is {goal.TOLERANCE * 1000:g} mm",
+        f"The tolerance is {instance.TOLERANCE * 1000:g} mm",
         f"are {reach.CELL * 100:g} cm wide (`CELL`)",
     ],
 )

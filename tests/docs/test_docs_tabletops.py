@@ -12,7 +12,7 @@ from docs_pages import ROOT, blocks, names, page, table
 
 PAGE = page("tabletops")
 FOLDER = ROOT / "plugins" / "llm3_bullet" / "tabletop"
-INNER = {"grasps", "surprises", "start_check"}
+INNER = {"grasps", "overlaps", "surprises", "start_check"}
 """Modules that a domain has no need of."""
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 import re
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,6 +15,7 @@ from docs_pages import DOCS, blocks, page, table
 from llm3.cli.main import main
 from llm3.cli.text import printable
 from llm3.scaffold import KINDS, Name, render
+from llm3.testing import Complaint, check_domain
 
 TUTORIALS = {
     "domain": "first-domain",
@@ -39,16 +42,68 @@ def forgotten_afterwards(corridor: Path):
             del sys.modules[name]
 
 
+@pytest.fixture
+def begin(corridor: Path, forgotten_afterwards, monkeypatch: pytest.MonkeyPatch) -> Callable[[str], tuple[str, ...]]:
+    """Makes and installs the package of a tutorial, and answers the other commands."""
+
+    def make(kind: str) -> tuple[str, ...]:
+        new, install, *others = commands(kind)
+        assert main(new.split()[1:]) == 0
+        install_package(corridor.parent / "plugins", corridor / install.split()[-1])
+        monkeypatch.syspath_prepend(corridor.parent / "plugins")  # forget what was found there before
+        return (install, *others)
+
+    return make
+
+
+def run(name: str) -> dict[str, object]:
+    """Run the code of a page, block after block, and answer its names."""
+    namespace: dict[str, object] = {}
+    for block in blocks(page(name), "python"):
+        exec(compile("\n" * block.line + block.text, f"docs/{name}.md", "exec"), namespace)  # an error names its line
+    return namespace
+
+
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_first_commands_work_and_are_those_that_the_program_prints(corridor, forgotten_afterwards, capsys, kind):
-    new, install, *others, tests = commands(kind)
-    assert main(new.split()[1:]) == 0
+def test_the_first_commands_work_and_are_those_that_the_program_prints(begin, capsys, kind):
+    install, *others, tests = begin(kind)
     printed = [printable(line) for line in capsys.readouterr().out.splitlines()[1:]]
     assert printed == [install, *others, tests]
-    folder = corridor / install.split()[-1]
-    install_package(corridor.parent / "plugins", folder)
     for line in others:
         assert main(line.split()[1:]) == 0, capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_other_command_works_too_a_stand_in_takes_the_place_of_a_model(begin, capsys, kind):
+    shown = "".join(block.text for block in blocks(page(TUTORIALS[kind]), "console"))
+    others = set(re.findall(r"^\$ (llm3 .*)$", shown, re.MULTILINE)) - set(commands(kind))
+    begin(kind)
+    for line in others:
+        assert main(line.removesuffix(" --model NAME").split()[1:]) == 0, line + capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["own-planner", "own-feedback", "own-model"])
+def test_the_code_of_a_tutorial_runs(corridor, name):
+    assert run(name)["result"].solved
+
+
+def test_the_code_on_strategies_runs_with_the_package_that_the_page_begins_with(begin):
+    begin("strategy")
+    assert run("own-strategy")["result"].solved
+
+
+def test_a_door_cannot_be_taken_and_who_does_not_refuse_it_is_told_so(begin):
+    begin("domain")
+    with_door = run("first-domain")["WithDoor"]
+    rooms = importlib.import_module("llm3_my_rooms.domain").MyRoomsDomain
+
+    def checked(env: type) -> tuple[Complaint, ...]:
+        return check_domain(type("Doors", (rooms,), {"make": lambda self, instance, options: env(instance)})())
+
+    assert checked(with_door) == ()
+    careless = type("Careless", (with_door,), {"prepare": with_door.__base__.prepare})
+    (complaint,) = checked(careless)
+    assert "take(['door'], {}): Careless.prepare raised KeyError: 'door'" in str(complaint)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -13,7 +13,7 @@ HEADING = "A second look at a plan"
 
 
 def limits() -> dict[str, str]:
-    return {row[0]: row[1] for row in table(page("command-line"), HEADING, "what is allowed").rows}
+    return {row[0]: row[1] for row in table(page("verify"), HEADING, "what is allowed").rows}
 
 
 @pytest.mark.pybullet
@@ -36,11 +36,11 @@ def test_the_limits_are_those_of_the_verifier():
         "out of the basket": f"{boxpack.OUT_OF_BASKET * 1000:g} mm",
     }
     assert f"{deeds.OFF_ANGLE:g} rad" in limits()["from where a box is let go to where the action says"]
-    assert f"come nearer by more than {sweep.STEP * 1000:g} mm from one look" in " ".join(page("command-line").split())
+    assert f"come nearer by more than {sweep.STEP * 1000:g} mm from one look" in " ".join(page("verify").split())
 
 
 def test_every_field_of_a_defect_is_named():
-    told = page("command-line").partition("A defect has the ")[2].partition("What does not apply")[0]
+    told = page("verify").partition("A defect has the ")[2].partition("What does not apply")[0]
     for field in dataclasses.fields(Defect):
         assert f"`{field.name}`" in told
 
@@ -53,6 +53,4 @@ def test_the_object_of_verify_has_the_documented_fields(capsys, monkeypatch, cor
     monkeypatch.setattr(verify_command, "verify", lambda problem, plan: Verification())
     capsys.readouterr()
     assert main(["verify", "o", "--json"]) == 0
-    assert tuple(json.loads(capsys.readouterr().out)) == tuple(
-        sorted(table(page("command-line"), HEADING, "field").names)
-    )
+    assert tuple(json.loads(capsys.readouterr().out)) == tuple(sorted(table(page("verify"), HEADING, "field").names))

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import ast
-from pathlib import Path
+import re
+from pathlib import Path, PurePosixPath
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from llm3.assembly import UNTIMED, RunConfig
 from llm3.errors import LLM3Error, OutputExists, UsageError
+from llm3.records.repetition import REPLAY
 from llm3.scaffold import BULLET_DOMAIN, KINDS, Name, render, write
 
 EVERY = {**KINDS, "domain with PyBullet": BULLET_DOMAIN}
@@ -30,6 +33,7 @@ def names(text: str) -> Name | None:
 @settings(max_examples=20)
 @given(name=WORDS.map(names).filter(bool))
 def test_what_is_written_is_python_with_docstrings_in_lines_of_120_letters(kind, name):
+    assume(name.plugin not in ("none", "loop", "search", *EVERY[kind].used))
     files = render(EVERY[kind], name)
     assert {"README.md", "pyproject.toml", f"{name.module}/plugin.py", f"tests/test_{name.identifier}.py"} <= set(
         map(str, files)
@@ -74,6 +78,16 @@ def test_it_says_what_there_is_and_what_to_type_next(command, cwd, kind):
     ]
     readme = (cwd / "of mine" / "x" / "README.md").read_text(encoding="utf-8")
     assert f"\nllm3 {trial}\nllm3 check {checked}\n" in readme
+    assert f" …` {KINDS[kind].tried}.\n" in readme
+
+
+@pytest.mark.parametrize("kind", EVERY)
+def test_the_readme_says_what_each_file_is_for_the_tests_as_well(kind):
+    name = Name("my-own")
+    files = render(EVERY[kind], name)
+    told = re.findall(r"^\| `(.+?)` \| .+ \|$", files[PurePosixPath("README.md")], re.MULTILINE)
+    there = {place.as_posix().removeprefix(f"{name.module}/") for place in files}
+    assert sorted(told) == sorted(there - {"README.md", "pyproject.toml", "__init__.py", "py.typed"})
 
 
 # ---- what is refused ------------------------------------------------------------------------------
@@ -93,6 +107,7 @@ SENTENCES = {
     ("domain", "test-rooms"): (
         "pytest takes classes that begin with Test for tests: choose another name, not 'test-rooms'."
     ),
+    ("domain", "none"): "llm3 uses 'none' itself where a domain is named: choose another name, such as my-domain.",
     ("domain", "corridor"): "domain 'corridor' is registered by corridor (llm3_corridor 1.0): choose another name.",
     **{
         ("domain", name): A_NAME.format(name)
@@ -120,6 +135,25 @@ def test_a_package_that_is_installed_is_not_hidden_by_a_new_one(command, cwd, in
 def test_a_name_is_taken_within_its_kind_only(command, cwd):
     assert command("new feedback offline").code == 0
     assert command("new backend offline --out other").code == 2
+
+
+@pytest.mark.parametrize("kind", EVERY)
+def test_names_that_llm3_uses_itself_are_refused_whatever_is_installed(kind):
+    usual, searched = RunConfig("none"), RunConfig("none", solver="search")
+    asked = {
+        "domain": set(),
+        "planner": {usual.planner},
+        "feedback": {usual.feedback},
+        "backend": {usual.backend, RunConfig("none", model="any").backend, "random", REPLAY},
+        "strategy": {usual.strategy},
+    }
+    registered = EVERY[kind].registered
+    for name in asked[registered] | {UNTIMED, usual.solver, searched.solver}:
+        with pytest.raises(UsageError) as caught:
+            render(EVERY[kind], Name(name))
+        assert str(caught.value) == (
+            f"llm3 uses {name!r} itself where a {registered} is named: choose another name, such as my-{registered}."
+        )
 
 
 def test_nothing_is_overwritten(command, cwd):

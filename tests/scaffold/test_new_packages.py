@@ -50,7 +50,7 @@ def test_what_failed_in_the_domain_is_told_to_the_model(command, new, cwd):
     (cwd / "replies.json").write_text(json.dumps([json.dumps({"Full Plan": plan}) for plan in plans]))
     ended = command("--domain told --instance pillar.json --llm scripted:replies.json --max-llm-calls 2 --out told-run")
     assert ended.code == 1
-    assert "The robot does not hold the ball: take it first." in ended.err
+    assert "The robot does not hold ball: take it first." in ended.err
     assert "goal in collision (pillar)" in ended.err
 
 

@@ -1,32 +1,15 @@
 from __future__ import annotations
 
 import dataclasses
-import importlib.util
 import json
 
 import pytest
-from docs_pages import DOCS, page, table
+from docs_pages import page, table
 
-from llm3.cli.main import COMMANDS, INTERRUPTED, TERMINATED, build_parser, main
+from llm3.cli.main import INTERRUPTED, TERMINATED, main
 from llm3.errors import LLM3Error, UsageError
 from llm3_http.presets import VARIABLE, known_presets
 from llm3_http.settings import API_KEY, BASE_URL, HttpSettings
-
-
-def command_line_script():
-    spec = importlib.util.spec_from_file_location("docs_command_line", DOCS / "command_line.py")
-    assert spec
-    assert spec.loader
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_the_page_has_the_live_help_of_every_command():
-    text = page("command-line")
-    assert command_line_script().with_help(text) == text, "run docs/command_line.py"
-    for command in COMMANDS:
-        assert build_parser(command).format_help() in text
 
 
 def test_the_exit_codes_are_those_of_the_program():

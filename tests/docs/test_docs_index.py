@@ -43,4 +43,5 @@ def test_every_place_that_belongs_to_a_change_is_there():
         "a method of Env",
         "an option of a run",
         "an event",
+        "a rule of the kit",
     ]

@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 
 from llm3.errors import InputError
+from llm3.json_faults import told
 
 T = TypeVar("T")
 
@@ -69,7 +70,8 @@ def loads(text: str | bytes, type_: type[T], source: str) -> T:
     except RecursionError as error:
         raise InputError(f"{source}: nested too deeply") from error
     except msgspec.MsgspecError as error:
-        wrong = str(error)
+        assert isinstance(text, str)  # noqa: S101  # it was decoded above
+        wrong = told(str(error), text, type_)
     if wrong:
         raise InputError(f"{source}: {wrong}")
     return value

@@ -157,6 +157,9 @@ def ended(
 def context_of(env: Env, start: State, trace: tuple[Feedback, ...] = (), skeleton: tuple[Sketch, ...] = ()) -> Context:
     """What a prompt is rendered from: the problem, its initial state, and what is told of earlier attempts."""
     entities = guarded(env.describe, (tuple, list), start)
+    for name in env.objects:
+        if not isinstance(name, str) or not name.strip() or not name.isprintable() or env.objects.count(name) > 1:
+            raise PluginError(f"{type(env).__name__}.objects must be different names of one line, not {env.objects!r}.")
     for entity in entities:
         if not isinstance(entity, Entity):
             raise PluginError(f"{type(env).__name__}.describe must answer a tuple of Entity, not of {entity!r}.")

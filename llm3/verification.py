@@ -30,8 +30,11 @@ def verify(problem: Problem, plan: PlanFile) -> Verification:
     verifier = guarded(domain.verifier, (PlanVerifier, type(None)), problem.instance, problem.options)
     if verifier is None:
         raise MissingCapability(domain.name, "verifier", "'llm3 verify'")
+    departures = tuple(_departures(env, plan))
+    if any(defect.number for defect in departures):
+        return Verification(departures)  # a verifier need not know what to make of what is no action
     found = guarded(verifier.verify, (Verification,), plan.start, plan.actions)
-    return replace(found, defects=(*_departures(env, plan), *_untimed(plan), *found.defects, *_unmet(env, plan)))
+    return replace(found, defects=(*departures, *_untimed(plan), *found.defects, *_unmet(env, plan)))
 
 
 def _departures(env: Env, plan: PlanFile) -> Iterator[Defect]:

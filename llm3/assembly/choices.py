@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from llm3.assembly.config import UNTIMED, USUAL_TIMER
-from llm3.errors import MissingCapability, MissingDependency, UnknownName
+from llm3.errors import MissingCapability, MissingDependency, PluginError, UnknownName
 from llm3.guarded import guarded
 from llm3.interfaces import Domain, Options, Strategy, TrajectoryTimer
+from llm3.jsonio import dumps
 from llm3.registry import Registry
 from llm3.types import FrozenDict, Sketch
 
@@ -18,11 +19,18 @@ def choose_instance(domain: Domain, setting: str | None, seed: int) -> Any:
 
     Raises:
         UnknownName: The domain has no such setting.
+        PluginError: What the domain answers has no JSON form.
     """
     setting = domain.default_setting if setting is None else setting
     if setting not in domain.settings:
         raise UnknownName("setting", setting, domain.settings, owner=f"domain {domain.name!r}")
-    return guarded(domain.instance, (domain.instance_type,), setting, seed)
+    instance = guarded(domain.instance, (domain.instance_type,), setting, seed)
+    try:
+        dumps(instance)
+    except (TypeError, ValueError, RecursionError) as error:
+        reason = f"an instance of domain {domain.name!r} cannot be written to a file: {error}"
+        raise PluginError(f"{reason}. Its fields are dataclasses, tuples, dicts, texts and numbers.") from error
+    return instance
 
 
 def choose_options(domain: Domain, given: Mapping[str, str]) -> Options:

@@ -39,7 +39,7 @@ def _lines(plan: PlanFile, found: Verification) -> Iterator[str]:
         yield from map(str, found.defects)
         return
     line = f"sound: {counted(len(plan.actions), 'action')}, {counted(found.configurations, 'configuration')} looked at"
-    if found.configurations:
+    if found.configurations and found.deepest_contact is not None:
         line += f", deepest contact {found.deepest_contact * 1000:.2f} mm"
     yield line
 

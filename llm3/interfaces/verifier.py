@@ -20,6 +20,6 @@ class PlanVerifier(ABC):
 
         Args:
             start: The state in which the plan says that it begins.
-            actions: The plan. Its actions may be anything, its configurations have the right number of joint values,
-                and no segment is without waypoints.
+            actions: The plan. Its actions fit the schemas and name objects that there are, its configurations have
+                the right number of joint values, and no segment is without waypoints. Nothing else is known of it.
         """

@@ -63,6 +63,8 @@ def read_plan(path: Path) -> PlanFile:
     """
     if path.is_dir():
         path = path / "plan.json"
+        if not path.exists() and not path.with_name("run.json").exists():
+            raise InputError(f"{path.parent} holds neither plan.json nor run.json: it is no folder of a run.")
         if not path.exists():
             raise InputError(f"{path.parent} holds no plan.json: the run was not solved.")
     try:

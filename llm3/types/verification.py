@@ -48,8 +48,8 @@ class Verification:
     defects: tuple[Defect, ...] = ()
     configurations: int = 0
     """How many configurations of the robot were looked at."""
-    deepest_contact: float = 0.0
-    """The deepest contact that was seen, allowed or not, in metres."""
+    deepest_contact: float | None = None
+    """The deepest contact that was seen, allowed or not, in metres; None where contacts are not measured."""
     clearances: Mapping[str, float] = field(default_factory=FrozenDict)
     """The smallest distance between the robot, with what it holds, and anything that it is not meant to touch there, in
     metres, by the label of the segment; negative where it touches. Labels in which nothing came near are missing."""

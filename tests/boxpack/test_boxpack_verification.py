@@ -35,7 +35,7 @@ def test_a_solved_plan_has_no_defect(solve, robot):
     report = verified(plan, "hard-small", 0)
     assert report.defects == ()
     assert report.configurations > 300
-    assert report.deepest_contact < 0.001
+    assert 0 <= report.deepest_contact < 0.001
     assert report.clearances["transit"] > 0.004
     assert verified(plan, "hard-small", 0) == report
 

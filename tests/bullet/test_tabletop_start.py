@@ -51,6 +51,14 @@ def test_a_box_inside_of_the_furniture_or_of_another_box(cells):
     assert refused(cell, lying) == "table and tan_box start in one another"
 
 
+def test_a_box_that_rests_on_nothing(cells):
+    sentence = "red_box rests on nothing where it starts, and would fall"
+    assert refused(cells["panda"], cube("red_box", 0.5, 0.0, height=0.003)) == sentence
+    with pytest.raises(InstanceError) as error:  # somebody forgot the table
+        Tabletop(cells["panda"], (PILLAR,), (cube("red_box", 0.5, 0.0),))
+    assert str(error.value) == sentence
+
+
 def test_what_touches_starts_well(cells):
     boxes = cube("red_box", 0.5, 0.0), cube("tan_box", 0.5, 0.0, height=0.05), cube("blue_box", 0.5, 0.05)
     on_top = cube("cyan_box", 0.5, 0.3, height=0.2)

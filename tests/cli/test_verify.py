@@ -181,7 +181,8 @@ def test_what_cannot_be_checked_is_one_line(watched, cwd, change, code, sentence
 def test_a_run_that_was_not_solved_has_no_plan(command, cwd):
     (cwd / "empty").mkdir()
     ended = command("verify empty")
-    assert (ended.code, ended.err) == (3, "llm3: error: empty holds no plan.json: the run was not solved.\n")
+    sentence = "empty holds neither plan.json nor run.json: it is no folder of a run."
+    assert (ended.code, ended.err) == (3, f"llm3: error: {sentence}\n")
     ended = command("verify nowhere.json")
     assert (ended.code, ended.err) == (3, "llm3: error: nowhere.json: No such file or directory\n")
 

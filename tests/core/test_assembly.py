@@ -1,6 +1,6 @@
 """From names to a run: defaults, capabilities, and what is said of whatever is not there."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import pytest
 from line_world import FINISH, FullLineDomain, Line, LineDomain, LineInstance, LinePlugin, go, line_registry, reply
@@ -441,3 +441,20 @@ def test_a_spare_world_is_closed_as_well_when_the_next_one_cannot_be_made():
     text = complaint(prepared.open, spare=spare, error=PluginError)
     assert text.startswith("Thrifty.remake raised ZeroDivisionError: no way (test_assembly.py:")
     assert spare.closed == 1
+
+
+def test_an_instance_that_cannot_be_written_is_the_domains_mistake():
+    @dataclass(frozen=True)
+    class Odd:
+        value: complex = 1j
+
+    class OddDomain(LineDomain):
+        name, instance_type = "odd", Odd
+
+        def instance(self, setting, seed):
+            return Odd()
+
+    assert complaint(choose_instance, OddDomain(), None, 0, error=PluginError) == (
+        "an instance of domain 'odd' cannot be written to a file: complex has no JSON form. "
+        "Its fields are dataclasses, tuples, dicts, texts and numbers."
+    )

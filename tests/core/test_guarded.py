@@ -44,6 +44,12 @@ def test_a_wrong_answer_names_the_method_and_what_it_must_answer(method, answer,
     assert complaint(Faulty()) == sentence
 
 
+@pytest.mark.parametrize("objects", [("coin", "coin"), ("coin", ""), ("coin", "a\nb"), ("coin", 7)])
+def test_objects_are_different_names_of_one_line(objects):
+    Faulty = type("Faulty", (Line,), {"objects": objects})
+    assert complaint(Faulty()) == f"Faulty.objects must be different names of one line, not {objects!r}."
+
+
 @pytest.mark.parametrize("fault", [KeyError("x"), SystemExit(0)])
 def test_an_exception_names_the_method_and_the_place(fault):
     class Faulty(Line):

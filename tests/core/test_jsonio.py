@@ -4,7 +4,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import pytest
@@ -122,10 +122,14 @@ def test_what_has_no_json_form_is_named(write):
 WRONG = {
     "no text": ("", "table.json: empty"),
     "blank": (b"\xef\xbb\xbf\n \n", "table.json: empty"),
-    "no JSON": ("height: 1", "table.json: JSON is malformed: invalid character (byte 0)"),
+    "no JSON": ("height: 1", "table.json: JSON is malformed: invalid character (column 1)"),
     "cut off": ('{"height": 1', "table.json: Input data was truncated"),
-    "more than one": ('{"height": 1} 2', "table.json: JSON is malformed: trailing characters (byte 15)"),
-    "NaN": ('{"height": NaN}', "table.json: JSON is malformed: invalid character (byte 11)"),
+    "more than one": ('{"height": 1} 2', "table.json: JSON is malformed: trailing characters (column 16)"),
+    "NaN": ('{"height": NaN}', "table.json: JSON is malformed: invalid character (column 12)"),
+    "NaN further down": (
+        '{\n  "boxes": [],\n  "height": NaN\n}\n',
+        "table.json: JSON is malformed: invalid character (line 3, column 13)",
+    ),
     "infinity": ('{"height": 1e999}', "table.json: Number out of range - at `$.height`"),
     "a list": ("[1]", "table.json: Expected `object`, got `array`"),
     "missing field": ('{"boxes": []}', "table.json: Object missing required field `height`"),
@@ -170,8 +174,29 @@ def test_one_line_names_the_source_the_field_and_what_is_wrong(text, sentence):
     assert complaint(text) == sentence
 
 
+@dataclass(frozen=True)
+class Painted:
+    """A dataclass with choices in it."""
+
+    parts: tuple[Literal["top", "leg"], ...] = ()
+    by_name: dict[str, Colour] = field(default_factory=dict)
+    pair: tuple[int, Literal[1, 2]] | None = None
+
+
+CHOICES = {
+    '{"parts": ["top", "arm"]}': "'arm' - at `$.parts[1]`; valid: 'leg', 'top'",
+    '{"by_name": {"a": "blue"}}': "'blue' - at `$.by_name[...]`; valid: 'red'",
+    '{"pair": [1, 3]}': "3 - at `$.pair[1]`; valid: 1, 2",
+}
+
+
+@pytest.mark.parametrize("text", CHOICES)
+def test_the_valid_values_are_told_wherever_they_stand(text):
+    assert complaint(text, Painted) == f"table.json: Invalid enum value {CHOICES[text]}"
+
+
 def test_a_value_that_is_none_of_the_valid_ones_is_named():
-    assert complaint('"blue"', Colour) == "table.json: Invalid enum value 'blue'"
+    assert complaint('"blue"', Colour) == "table.json: Invalid enum value 'blue'; valid: 'red'"
 
 
 @given(st.text(st.characters(categories=None)) | st.binary())

@@ -140,7 +140,11 @@ def test_what_was_asked_and_what_came_of_it_reads_back(tmp_path):
     ("change", "wrong"),
     [
         ({"format": "llm3-run/9"}, "the format is 'llm3-run/9', and this version reads 'llm3-run/1'"),
-        ({"status": "happy"}, "Invalid enum value 'happy' - at `$.status`"),
+        (
+            {"status": "happy"},
+            "Invalid enum value 'happy' - at "
+            "`$.status`; valid: 'error', 'interrupted', 'not solved', 'running', 'solved'",
+        ),
         ({"seconds": "one"}, "Expected `float`, got `str` - at `$.seconds`"),
         ({"config": {"domain": "line", "temperature": -1}}, "the temperature must be 0 or more, not -1."),
     ],
@@ -183,7 +187,8 @@ def replaced(number, old, new):
          "ReplyReceived, CallFailed, ReplyRead, ActionTried, AttemptEnded, RunEnded."),
         (replaced(2, '"RunStarted"', "null"), "line 2: unknown event None. Known: RunStarted, PromptSent, "
          "ReplyReceived, CallFailed, ReplyRead, ActionTried, AttemptEnded, RunEnded."),
-        (replaced(3, '"user"', '"nobody"'), "line 3: Invalid enum value 'nobody' - at `$.messages[1].role`"),
+        (replaced(3, '"user"', '"nobody"'), "line 3: Invalid enum value 'nobody' - at "
+        "`$.messages[1].role`; valid: 'assistant', 'system', 'user'"),
         (replaced(3, '"attempt":1', '"attempt":2'), "line 3: the attempt is number 1, not 2"),
         (replaced(4, '"text"', '"word"'), "line 4: Object missing required field `text` - at `$.completion`"),
         (replaced(5, '"repairs"', '"mends"'),
@@ -192,7 +197,7 @@ def replaced(number, old, new):
          "line 5, action: Expected `object`, got `int`"),
         (replaced(6, '"index":0', '"index":1'), "line 6: the index of the action is 0, not 1"),
         (replaced(6, '"failure"', '"fail"'), "line 6: Object missing required field `failure` - at `$.outcome`"),
-        (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (byte 10)"),
+        (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (column 11)"),
         (lambda lines: lines[:4] + lines[5:], "line 5: ActionTried cannot follow ReplyReceived"),
         (lambda lines: lines[:1] + lines[2:], "line 2: PromptSent cannot follow the header"),
         (lambda lines: [*lines[:3], "", *lines[3:]], "line 4: empty"),

@@ -6,16 +6,20 @@ import importlib
 import re
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from command_line import install_package
 from docs_pages import DOCS, blocks, page, table
 
+from llm3 import Prompt, Registry, solve
 from llm3.cli.main import main
 from llm3.cli.text import printable
 from llm3.scaffold import KINDS, Name, render
-from llm3.testing import Complaint, check_domain
+from llm3.testing import Complaint, ScriptedLLM, check_domain
+from llm3.testing.scripted import stand_in_script
+from llm3.types import Motion, Segment
 
 TUTORIALS = {
     "domain": "first-domain",
@@ -121,3 +125,26 @@ def test_the_command_line_page_names_every_kind_and_its_tutorial():
     }
     assert set(KINDS) == set(TUTORIALS)
     assert all((DOCS / f"{tutorial}.md").is_file() for tutorial in TUTORIALS.values())
+
+
+def test_the_extras_of_a_domain_are_whole_and_the_second_look_sees_what_is_wrong(corridor, forgotten_afterwards):
+    names = run("domain-extras")
+    domain = names["Corridors"]()
+    assert check_domain(domain) == ()
+    instance = domain.instance("default", 0)
+    env, registry = domain.make(instance, {}), Registry.discover()
+    result = solve(
+        env,
+        backend=ScriptedLLM(stand_in_script(domain.stand_in())),
+        planner=registry.planner("birrt"),
+        feedback=registry.feedback("none"),
+        prompt=Prompt(registry.strategy("backtrack")),
+    )
+    assert result.solved
+    look = domain.verifier(instance, {}).verify
+    assert look(result.start, result.plan).sound
+    through = replace(result.plan[1], motion=Motion((Segment("transit", ((0.5, 0.0), (1.9, 0.0))),)))
+    sentences = [defect.sentence for defect in look(result.start, (result.plan[0], through)).defects]
+    assert sentences == ["the robot walks through the wall", "the robot is not where the state says"]
+    assert not look(result.start, result.plan[:1]).sound
+    assert "near y = " in names["NamedGap"](instance).task

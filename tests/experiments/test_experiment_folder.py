@@ -217,7 +217,10 @@ class TestReading:
         file.write_text(header + first.replace('"solved"', '"sovled"') + second)
         with pytest.raises(InputError) as caught:
             read_experiment_folder(HERE)
-        assert str(caught.value) == "out/runs.jsonl, line 2: Invalid enum value 'sovled' - at `$.status`"
+        valid = "'crashed', 'error', 'not solved', 'solved'"
+        assert (
+            str(caught.value) == f"out/runs.jsonl, line 2: Invalid enum value 'sovled' - at `$.status`; valid: {valid}"
+        )
 
     def test_counts_below_nothing_are_refused(self):
         carry_out(HERE, experiment(attempts=1))

@@ -259,7 +259,8 @@ def test_a_damaged_line_is_named(command, cwd):
     runs.write_text(runs.read_text().replace('"status":"solved"', '"status":"fine"', 1))
     ended = command("results done")
     assert (ended.code, ended.out) == (3, "")
-    assert ended.err == "llm3: error: done/runs.jsonl, line 2: Invalid enum value 'fine' - at `$.status`\n"
+    sentence = "Invalid enum value 'fine' - at `$.status`; valid: 'crashed', 'error', 'not solved', 'solved'"
+    assert ended.err == f"llm3: error: done/runs.jsonl, line 2: {sentence}\n"
 
 
 @pytest.mark.parametrize(

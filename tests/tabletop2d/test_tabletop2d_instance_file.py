@@ -37,7 +37,7 @@ WRONG = [
         "wall and region names are letters, digits and underscores, no digit first, not '1' - at `$.walls[0]`",
     ),
     ("objects.0.name", "room", f"nothing can be called 'room'; these names are taken: {TAKEN} - at `$.objects[0]`"),
-    ("objects.0.shape", "ball", "Invalid enum value 'ball' - at `$.objects[0].shape`"),
+    ("objects.0.shape", "ball", "Invalid enum value 'ball' - at `$.objects[0].shape`; valid: 'box', 'disc'"),
     ("objects.1.size", [0.1], "Expected `array` of length 2 - at `$.objects[1].size`"),
     ("objects.1.size.0", 0.0, "the sides of blue_box must be 0.01 to 5 m, not [0.0, 0.06] - at `$.objects[1]`"),
     (

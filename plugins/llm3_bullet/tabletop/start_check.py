@@ -12,6 +12,7 @@ from llm3_bullet.scene import Box, Scene
 from llm3_bullet.tabletop.manipulation import Manipulation
 from llm3_bullet.tabletop.overlaps import overlap
 from llm3_bullet.tabletop.rectangles import Rectangle
+from llm3_bullet.tabletop.resting import rests_on
 from llm3_bullet.workcell import Workcell
 
 SLAB = 0.01
@@ -35,8 +36,8 @@ def check_start(
         to_move: The names of boxes without a move of which the goal cannot be reached.
 
     Raises:
-        InstanceError: A box starts in another one, in the furniture or in the arm; the arm stands on an area; a box
-            that has to be moved does not fit the gripper, or is farther away than the arm is long.
+        InstanceError: A box starts in another one, in the furniture, in the arm or in the air; the arm stands on an
+            area; a box that has to be moved does not fit the gripper, or is farther away than the arm is long.
         InputError: The arm touches itself or the furniture.
     """
     _check_boxes(manipulation.things(start.poses), start)
@@ -53,6 +54,9 @@ def _check_boxes(things: Sequence[Box], start: State) -> None:
     )
     if found:
         raise InstanceError(f"{found[0]} and {found[1]} start in one another")
+    for box in (thing for thing in things if thing.name in start.poses):
+        if not any(rests_on(box.pose, box.size, below.pose, below.size) for below in things if below is not box):
+            raise InstanceError(f"{box.name} rests on nothing where it starts, and would fall")
 
 
 def _check_arm(workcell: Workcell, scene: Scene, start: State) -> None:

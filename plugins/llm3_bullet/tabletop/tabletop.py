@@ -50,8 +50,8 @@ class Tabletop:
             to_move: The names of boxes without a move of which the goal cannot be reached.
 
         Raises:
-            InstanceError: A box starts in another one, in the furniture or in the arm; the arm stands on an area; a
-                box that has to be moved does not fit the gripper, or is farther away than the arm is long.
+            InstanceError: A box starts in another one, in the furniture, in the arm or in the air; the arm stands on
+                an area; a box that has to be moved does not fit the gripper, or is farther away than the arm is long.
             InputError: The arm touches itself or the furniture where it starts.
         """
         self.workcell, self._furniture, self._surfaces = workcell, tuple(furniture), tuple(surfaces)

@@ -1,0 +1,69 @@
+"""What is wrong with a JSON text: the parser's sentence, with the place and the valid values made plain."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from msgspec import inspect
+
+_BYTE = re.compile(r" \(byte (\d+)\)$")
+_ENUM = re.compile(r"^Invalid enum value .*?(?: - at `\$(?P<path>.*)`)?$", re.DOTALL)
+_STEP = re.compile(r"\.(?P<field>\w+)|\[(?P<index>\d+|\.\.\.)\]")
+
+
+def told(sentence: str, text: str, type_: Any) -> str:
+    """The parser's sentence in the terms of whoever wrote the text.
+
+    Args:
+        sentence: What the parser says.
+        text: The JSON.
+        type_: What it should hold.
+    """
+    byte, enum = _BYTE.search(sentence), _ENUM.match(sentence)
+    if byte:
+        return f"{sentence[: byte.start()]} ({_place(text, int(byte.group(1)))})"
+    if enum:
+        valid = ", ".join(map(repr, _valid(inspect.type_info(type_), enum["path"] or "")))
+        return f"{sentence}; valid: {valid}" if valid else sentence
+    return sentence
+
+
+def _place(text: str, byte: int) -> str:
+    """Lines and columns count from 1; of a text of one line there is no need to name the line."""
+    before = text.encode(errors="replace")[:byte].decode(errors="replace")
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    return f"line {line}, column {column}" if "\n" in text.strip() else f"column {column}"
+
+
+def _valid(kind: inspect.Type, path: str) -> tuple[Any, ...]:
+    """What may stand at a place; empty where that is not known."""
+    for step in _STEP.finditer(path):
+        kinds = [_inner(one, step["field"], step["index"]) for one in _alternatives(kind)]
+        found = next((inner for inner in kinds if inner is not None), None)
+        if found is None:
+            return ()
+        kind = found
+    values: list[Any] = []
+    for one in _alternatives(kind):
+        if isinstance(one, inspect.LiteralType):
+            values += one.values
+        elif isinstance(one, inspect.EnumType):
+            values += [member.value for member in one.cls]
+    return tuple(values)
+
+
+def _alternatives(kind: inspect.Type) -> tuple[inspect.Type, ...]:
+    return kind.types if isinstance(kind, inspect.UnionType) else (kind,)
+
+
+def _inner(kind: inspect.Type, field: str | None, index: str | None) -> inspect.Type | None:
+    if isinstance(kind, inspect.DataclassType | inspect.StructType) and field is not None:
+        return next((one.type for one in kind.fields if one.encode_name == field), None)
+    if isinstance(kind, inspect.VarTupleType | inspect.ListType) and index is not None:
+        return kind.item_type
+    if isinstance(kind, inspect.TupleType) and index is not None and index.isdigit():
+        return kind.item_types[int(index)]
+    if isinstance(kind, inspect.DictType) and index is not None:
+        return kind.value_type
+    return None

@@ -168,7 +168,7 @@ def test_scripted_needs_a_file():
     [
         ('{"replies": []}', "Expected `array`, got `object`"),
         ('["one", 2]', "Expected `str`, got `int` - at `$[1]`"),
-        ("one", "JSON is malformed: invalid character (byte 0)"),
+        ("one", "JSON is malformed: invalid character (column 1)"),
         (None, "No such file or directory"),
     ],
 )

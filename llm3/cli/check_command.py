@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from dataclasses import asdict
 from typing import TextIO
 
+from llm3.cli.problem_arguments import loaded_instance, path
 from llm3.cli.text import emit, printable
 from llm3.errors import UsageError
 from llm3.interfaces import BackendSettings, PlannerSettings
@@ -14,7 +15,7 @@ from llm3.registry import Registry
 from llm3.testing.conformance.attempts import SKELETON
 from llm3.testing.conformance.backend import examine_backend
 from llm3.testing.conformance.complaint import Report
-from llm3.testing.conformance.domain import examine_domain
+from llm3.testing.conformance.domain import Given, examine_domain
 from llm3.testing.conformance.feedback import examine_feedback
 from llm3.testing.conformance.planner import examine_planner
 from llm3.testing.conformance.strategy import examine_strategy
@@ -31,6 +32,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     add("name", metavar="NAME", help="the plugin's name; of a backend also NAME:ARGUMENT, as for --llm")
     add("--kind", choices=KINDS, help="what it is, where things of several kinds have that name")
     add("--setting", metavar="NAME", help="look at one setting of a domain only (default: all)")
+    add("--instance", type=path, metavar="FILE", help="look at one problem of a domain, from a JSON file")
     add("--model", metavar="NAME", help="the model of a backend, which is asked two tiny questions")
     add("--json", action="store_true", help="print one JSON object")
 
@@ -39,7 +41,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     registry = Registry.discover()
     kind = arguments.kind or _kind(registry, arguments.name)
-    for flag, of in (("setting", "domain"), ("model", "backend")):
+    for flag, of in (("setting", "domain"), ("instance", "domain"), ("model", "backend")):
         if getattr(arguments, flag) is not None and kind != of:
             raise UsageError(f"--{flag} is for a {of}, and {arguments.name!r} is a {kind}.")
     report = _examined(registry, kind, arguments)
@@ -73,7 +75,10 @@ def _examined(registry: Registry, kind: str, arguments: Namespace) -> Report:
     name: str = arguments.name
     match kind:
         case "domain":
-            return examine_domain(registry.domain(name), registry, setting=arguments.setting)
+            domain = registry.domain(name)
+            instance = loaded_instance(domain, arguments)
+            given = Given(str(arguments.instance), instance) if arguments.instance else None
+            return examine_domain(domain, registry, setting=arguments.setting, given=given)
         case "planner":
             planner = registry.planner(name, PlannerSettings(max_iterations=ITERATIONS))
             return examine_planner(planner, max_iterations=ITERATIONS)

@@ -10,7 +10,7 @@ import numpy as np
 from planted import Planted
 from yard import Yard, a_yard, with_state
 
-from llm3.types import Entity, Failure, FailureKind, Goal, GoalStatus, MotionProblem, Segment, Transition
+from llm3.types import Entity, Failure, FailureKind, Goal, GoalStatus, Held, MotionProblem, Pose, Segment, Transition
 
 
 def with_query(**fields):
@@ -128,6 +128,13 @@ def elsewhere(self, state, goal):
 
 def far_away(self, state, goal):
     return Yard.problem(self, state, Goal((goal.configuration[0], goal.configuration[1] + 1.0)))
+
+
+def putting_anyway(self, state, action, rng):
+    """Puts the cup without a look at the hand."""
+    held = Held("cup", Pose((0.0, 0.0, 0.0)))
+    state = replace(state, poses={}, held=held) if action.name == "put" else state
+    return Yard.prepare(self, state, action, rng)
 
 
 def losing(**fields):
@@ -343,6 +350,23 @@ OF_APPLY: dict[str, Planted] = {
         "no object and no fact gets lost",
         "after … all facts are gone: {'rung': False}.",
         "facts=state.facts",
+    ),
+    "another grasp": Planted(
+        with_state(
+            lambda before, after: (
+                replace(after, held=Held("cup", Pose((0.0, 0.0, 0.1)))) if after.held and not before.held else after
+            )
+        ),
+        "the grip is what the events say",
+        "take(['cup'], {}) attaches 'cup' with the grasp (0, 0, 0) (0, 0, 0, 1), and the state after it holds it with "
+        "(0, 0, 0.1) (0, 0, 0, 1).",
+        "the same one",
+    ),
+    "puts what it does not hold": Planted(
+        a_yard(prepare=putting_anyway),
+        "the grip is what the events say",
+        "put(['cup'], {…}) detaches 'cup', and what is held is None.",
+        "as a PRECONDITION",
     ),
     "attached and not held": Planted(
         with_state(lambda before, after: replace(after, held=None, poses=before.poses)),

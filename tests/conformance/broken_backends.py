@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import random
 from itertools import count
 
+import numpy as np
 from planted import Planted
 
 from llm3 import LLMBackend
@@ -38,6 +40,20 @@ def numbering():
 
 def refusing(self, request):
     raise BackendError("the program 'nosuchprog' is not installed")
+
+
+def printing(self, request):
+    print("Thinking...")  # noqa: T201  # that is the fault
+    return Echo.text(self, request)
+
+
+def seeding(self, request):
+    random.seed(request.seed)
+    return Echo.text(self, request)
+
+
+def drawing(self, request):
+    return f"{np.random.uniform()}"  # noqa: NPY002  # that is the fault
 
 
 def closing_once(self):
@@ -101,6 +117,30 @@ FAULTS: dict[str, Planted] = {
         "equal requests get equal answers",
         "two equal requests get 'reply 0' and then 'reply 2'.",
         "request.seed",
+    ),
+    "an empty text": Planted(
+        a_backend(text=lambda self, request: " \n"),
+        "requests are answered",
+        "a request is answered with an empty text.",
+        "raise a BackendError",
+    ),
+    "prints": Planted(
+        a_backend(text=printing),
+        "nothing is printed",
+        "a request prints 'Thinking...\\nThinking...\\nThinking...\\n' on standard output.",
+        "Results go there",
+    ),
+    "seeds everybody's generator": Planted(
+        a_backend(text=seeding),
+        "chance comes from the request",
+        "a request draws from the global generator of random or numpy, or seeds it.",
+        "request.seed",
+    ),
+    "draws from everybody's generator": Planted(
+        a_backend(text=drawing),
+        "chance comes from the request",
+        "a request draws from the global generator of random or numpy, or seeds it.",
+        "random.Random of your own",
     ),
     "closed only once": Planted(
         a_backend(__init__=lambda self: setattr(self, "connection", 1), close=closing_once),

@@ -25,7 +25,8 @@ class Plain(FeedbackSynthesizer):
     def remark(self, outcome):
         why = [self.why(outcome.failure)] if outcome.failure else []
         text = " ".join(f"{part}." for part in (*why, *outcome.notes))
-        return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text)
+        kind = outcome.failure.kind if outcome.failure else None
+        return Remark(str(outcome.action), "failed" if outcome.failure else "feasible", text, kind)
 
     def why(self, failure):
         named = f", because of {', '.join(failure.objects)}" if failure.objects else ""
@@ -55,9 +56,53 @@ def without_words_for(kind):
     def remark(self, outcome):
         found = Plain.remark(self, outcome)
         left_out = outcome.failure is not None and outcome.failure.kind is kind
-        return replace(found, text=" ".join(f"{note}." for note in outcome.notes)) if left_out else found
+        return replace(found, text=" ".join(f"{note}." for note in outcome.notes), kind=None) if left_out else found
 
     return a_level(remark=remark)
+
+
+def remarks_with(change):
+    """A level whose remarks are changed, given the outcome."""
+    return a_level(remark=lambda self, outcome: change(Plain.remark(self, outcome), outcome))
+
+
+def quoting():
+    """Writes the action into the text, and talks of none of the objects."""
+
+    def why(self, failure):
+        return f"None of the places is free: {Plain.why(self, failure)}"
+
+    def remark(self, outcome):
+        found = Plain.remark(self, outcome)
+        return replace(found, text=f"{outcome.action} is said to be {found.verdict}. {found.text}".strip())
+
+    return a_level(why=why, remark=remark)
+
+
+def verdict_alone():
+    """Says in words that a motion failed, and not why."""
+
+    def remark(self, outcome):
+        if outcome.failure is None or not outcome.failure.kind.is_motion:
+            return Plain.remark(self, outcome)
+        said = f"{outcome.action} failed", *outcome.notes
+        return Remark(str(outcome.action), "failed", " ".join(f"{part}." for part in said))
+
+    return a_level(remark=remark)
+
+
+def first_object(self, failure):
+    return Plain.why(self, replace(failure, objects=failure.objects[:1]))
+
+
+def with_the_parts(self, failure):
+    """Takes what touches for what is touched."""
+    parts = tuple(contact.part for contact in failure.contacts)
+    return Plain.why(self, replace(failure, objects=(*failure.objects, *parts[:1])))
+
+
+def without_detail(self, failure):
+    return Plain.why(self, replace(failure, detail="") if failure.kind.is_motion else failure)
 
 
 KNOWN = {FailureKind.PRECONDITION: "it is not possible here"}
@@ -89,8 +134,66 @@ FAULTS: dict[str, Planted] = {
     "no names": Planted(
         a_level(why=lambda self, failure: failure.kind.value),
         "failures name their objects",
-        "unreachable, alone: 'unreachable.' does not name oak_shelf, which is to blame.",
+        "unreachable, alone: 'unreachable' does not name oak_shelf, which is to blame.",
         "Failure.objects",
+    ),
+    "only the first object": Planted(
+        a_level(why=first_object),
+        "failures name their objects",
+        "unreachable, alone: 'unreachable, because of oak_shelf' does not name tin_lamp, which is to blame.",
+        "all of Failure.objects",
+    ),
+    "what is held as an obstacle": Planted(
+        a_level(why=with_the_parts),
+        "failures name their objects",
+        "goal in collision, alone: 'goal in collision, because of oak_shelf, tin_lamp, held green_cup' blames 'held "
+        "green_cup', which is what the robot holds.",
+        "Contact.object",
+    ),
+    "no detail": Planted(
+        a_level(why=without_detail),
+        "details are told",
+        "unreachable, with a detail: 'unreachable' does not say 'the lid of the pot is open too wide'.",
+        "Failure.detail",
+    ),
+    "no kind": Planted(
+        remarks_with(lambda remark, outcome: replace(remark, kind=None)),
+        "remarks say their kind",
+        "unreachable, alone: the text tells that it is 'unreachable', and the remark has no kind.",
+        "cannot read prose",
+    ),
+    "another kind": Planted(
+        remarks_with(lambda remark, outcome: replace(remark, kind=remark.kind and FailureKind.NO_PATH)),
+        "remarks say their kind",
+        "unreachable, alone: the kind of the remark is 'no path within budget', and the failure's is 'unreachable'.",
+        "outcome.failure.kind",
+    ),
+    "a kind that the text does not tell": Planted(
+        remarks_with(lambda remark, outcome: replace(remark, text=" ".join(f"{note}." for note in outcome.notes))),
+        "remarks say their kind",
+        "unreachable, alone: the remark has the kind 'unreachable', and its text tells nothing.",
+        "stand-ins are told what a model is told",
+    ),
+    "a kind of what worked": Planted(
+        remarks_with(lambda remark, outcome: replace(remark, kind=remark.kind or FailureKind.PRECONDITION)),
+        "remarks say their kind",
+        "a plan that falls short: the remark on an action that is 'feasible' has the kind 'precondition'.",
+        "Only what failed",
+    ),
+    "only the first of what is unmet": Planted(
+        a_level(summary=lambda self, attempt: f"Missing: {attempt.goal.unmet[0]}."),
+        "what is unmet is told or not",
+        "a plan that falls short: of what is unmet 'green_cup is not on oak_shelf' is told, and 'the hand of the robot "
+        "is not empty' is not.",
+        "tell all of them",
+    ),
+    "no notes of what failed": Planted(
+        a_level(
+            remark=lambda self, outcome: Plain.remark(self, replace(outcome, notes=()) if outcome.failure else outcome)
+        ),
+        "notes are told",
+        "unreachable, mid-plan: the note 'tin_kettle toppled' is not told.",
+        "the action that failed",
     ),
     "forgets a kind": Planted(
         a_level(
@@ -99,7 +202,7 @@ FAULTS: dict[str, Planted] = {
             )
         ),
         "failures name their objects",
-        "no path within budget, alone: 'no way was found.' does not name oak_shelf, which is to blame.",
+        "no path within budget, alone: 'no way was found' does not name oak_shelf, which is to blame.",
         "NO_PATH",
     ),
     "no words for a kind of motion failure": Planted(

@@ -72,6 +72,18 @@ def putting(self, state, action, rng):
     return Yard.prepare(self, replace(state, poses={}, held=Held("cup", Pose((0.0, 0.0, 0.0)))), action, rng)
 
 
+def way_by_object(self, state, x, y, event):
+    """Keeps the goal by what is handled."""
+    kept = self.__dict__.setdefault("kept", {})
+    x, y = kept.setdefault((event.kind, event.object), (x, y))
+    return Yard.query(self, state, x, y, event)
+
+
+def cached_by_names(self, state):
+    """The first state with such objects."""
+    return self.__dict__.setdefault("seen", {}).setdefault(tuple(state.poses), state)
+
+
 LATE = around_the_cup(lambda self, state: self.state)
 FAULTS: dict[str, Planted] = {
     "goal of the last state": Planted(
@@ -89,9 +101,20 @@ FAULTS: dict[str, Planted] = {
     "took it once": Planted(
         a_yard(apply=taking, prepare=putting),
         "a new world answers like one in use",
-        "a new world prepares put(['cup'], {…}) differently than one in which actions were carried out: "
-        "it is a Failure and then a MotionProblem.",
+        "a new world prepares put(['cup'], {…}) differently than one in which actions were carried out: …",
         "Keep nothing in the Env",
+    ),
+    "way by the object": Planted(
+        a_yard(query=way_by_object),
+        "a new world answers like one in use",
+        "a new world prepares … differently than one in which actions were carried out: …",
+        "a cache that goes by all that the answer depends on",
+    ),
+    "obstacles by their names": Planted(
+        a_yard(problem=around_the_cup(lambda self, state: cached_by_names(self, state))),
+        "a new world answers like one in use",
+        "a new world answers the validity test of … differently than one in which actions were carried out: …",
+        "a cache that goes by all that the answer depends on",
     ),
     "obstacles of the last reset or apply": Planted(
         keeping(problem=LATE),

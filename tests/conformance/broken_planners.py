@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
 
@@ -66,9 +67,51 @@ def failure_with(change):
     return a_planner(told=lambda self, answer, problem: change(answer) if isinstance(answer, Failure) else answer)
 
 
+def tested_every(step):
+    """Tests lines in samples that are so far apart, by a function of the differences in steps of the resolution."""
+
+    def free(self, space, way):
+        lines = [np.linspace(a, b, 1 + max(1, step(b - a, space._problem.resolution))) for a, b in pairwise(way)]
+        return space.free(np.vstack(lines)).all()
+
+    return a_planner(free=free)
+
+
+def skips_what_is_uncertain(self, space, way):
+    """Tests what is certainly free, and takes the rest for free."""
+    if space._problem.uncertain is None:
+        return space.path(way)
+    lines = []
+    for a, b in pairwise(way):
+        steps = max(1, int(np.ceil((np.abs(b - a) / space._problem.resolution).sum())))
+        lines.append(np.linspace(a, b, steps + 1)[~space.uncertain(a, b, steps)])
+    return space.free(np.vstack(lines)).all()
+
+
+def for_each_goal(self, problem, rng):
+    """A budget for each goal, and not for the query."""
+    return a_planner(budget=BUDGET * len(problem.goals)).plan(problem, rng)
+
+
+def unscaled(self, problem, rng):
+    return list(rng.uniform(size=(2, len(problem.start))))
+
+
+def unscaled_or_refused(self, problem, rng):
+    """Draws what other limits do not hold, and goes straight on instead."""
+    drawn = rng.uniform(size=(2, len(problem.start)))
+    return list(drawn) if ((problem.low <= drawn) & (drawn <= problem.high)).all() else []
+
+
+def idle(self, problem, rng):
+    while True:
+        with suppress(Exception):
+            rng.uniform()
+
+
 def endless(self, problem, rng):
     while True:
-        problem.valid(rng.uniform(problem.low, problem.high, size=(100_000, 2)))
+        problem.valid(rng.uniform(problem.low, problem.high, size=(100_000, len(problem.start))))
 
 
 def only_the_first(self, space):
@@ -203,6 +246,101 @@ FAULTS: dict[str, Planted] = {
         "the budget is kept",
         "enclosed: 1999 iterations were spent, and 200 are the budget.",
         "the whole of a query",
+    ),
+    "over budget for many goals": Planted(
+        a_planner(plan=for_each_goal),
+        "the budget is kept",
+        "enclosed, with three goals: 599 iterations were spent, and 200 are the budget.",
+        "the whole of a query",
+    ),
+    "samples that are not scaled": Planted(
+        a_planner(drawn=unscaled),
+        "paths stay within the limits",
+        "three joints, around a block: the path goes through (…), outside of (0, -1, 2) to (1, 1, 2.5).",
+        "problem.low",
+    ),
+    "samples that are scaled to nothing": Planted(
+        a_planner(drawn=unscaled_or_refused),
+        "other limits are no obstacle",
+        "around a block in other limits: no path is found, and one is found in the world 'around a block', which is "
+        "the same.",
+        "between problem.low and problem.high",
+    ),
+    "paths of two joints": Planted(
+        path_with(lambda path: replace(path, waypoints=path.waypoints[:, :2])),
+        "answers are paths or failures",
+        "three joints: the waypoints have shape (2, 2), and a configuration has 3 values.",
+        "(N, dof)",
+    ),
+    "samples of two joints": Planted(
+        a_planner(drawn=lambda self, problem, rng: list(rng.uniform(problem.low[:2], problem.high[:2], size=(2, 2)))),
+        "nothing is raised",
+        "Planner.plan raised ValueError: all the input array dimensions except for the concatenation axis must match "
+        "exactly, but along dimension 1, the array at index 0 has size 3 and the array at index 1 has size 2 (…).",
+        "ends a run",
+    ),
+    "the resolution of the first joint": Planted(
+        tested_every(lambda edge, resolution: int(np.ceil(np.abs(edge / resolution[0]).sum()))),
+        "every edge is tested",
+        "a thin wall across the finer joint: nothing is tested between (…) and (…) of the path, which are 6.8 steps "
+        "of the resolution apart.",
+        "each joint with its own resolution",
+    ),
+    "the resolution of the last joint": Planted(
+        tested_every(lambda edge, resolution: int(np.ceil(np.abs(edge / resolution[-1]).sum()))),
+        "every edge is tested",
+        "a thin wall across the first joint: nothing is tested between (…) and (…) of the path, which are … steps of "
+        "the resolution apart.",
+        "each joint with its own resolution",
+    ),
+    "steps through a thin wall": Planted(
+        tested_every(lambda edge, resolution: int(np.ceil(np.abs(edge / resolution[0]).sum()))),
+        "paths are free",
+        "a thin wall across the finer joint: the path goes through (…), which is not free.",
+        "tested at the resolution",
+    ),
+    "Euclidean steps": Planted(
+        tested_every(lambda edge, resolution: int(np.ceil(np.linalg.norm(edge / resolution)))),
+        "every edge is tested",
+        "around a block: nothing is tested between (…) and (…) of the path, which are 1.37 steps of the resolution "
+        "apart.",
+        "not the Euclidean length",
+    ),
+    "takes what is uncertain for what is free": Planted(
+        a_planner(free=skips_what_is_uncertain),
+        "paths are free",
+        "around a block where what is certainly free is known: the path goes through (…), which is not free.",
+        "tested at the resolution",
+    ),
+    "blames what it never met": Planted(
+        failure_with(lambda failure: replace(failure, objects=(*failure.objects, "wall 7"))),
+        "what is blamed was touched",
+        "start in collision: the failure blames 'wall 7', and nothing that was asked about touches it.",
+        "problem.explain",
+    ),
+    "counts too few tests": Planted(
+        a_planner(stats=lambda self, iterations, checks: Stats(0, 0, 0, 0, 0, 1, iterations, checks - 1)),
+        "what was spent is told",
+        "free: … configurations were tested, and the stats count …",
+        "without those that `uncertain` leaves out",
+    ),
+    "counts no iterations": Planted(
+        a_planner(stats=lambda self, iterations, checks: Stats(planner_calls=1, validity_checks=checks)),
+        "what was spent is told",
+        "around a block: a path around something was found, and the stats count no iteration.",
+        "Stats.planner_iterations",
+    ),
+    "a guard that never struck": Planted(
+        a_planner(stats=lambda self, *spent: replace(ByTheWay.stats(self, *spent), time_limited=1)),
+        "what was spent is told",
+        "free: the stats say that the wall-clock guard cut the query off.",
+        "max_seconds",
+    ),
+    "counts two queries": Planted(
+        a_planner(stats=lambda self, *spent: replace(ByTheWay.stats(self, *spent), planner_calls=2)),
+        "what was spent is told",
+        "free: the stats count 2 queries.",
+        "planner_calls=1",
     ),
     "counts no tests": Planted(
         a_planner(stats=lambda self, iterations, checks: Stats(planner_calls=1)),

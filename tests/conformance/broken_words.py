@@ -11,7 +11,7 @@ from yard import Yard, YardInstance, YardVerifier, a_yard, tidy, with_state
 
 from llm3 import Joint, Option
 from llm3.interfaces import PlanVerifier
-from llm3.types import ActionSchema, Entity, GoalStatus, Parameter, Shape, Sketch, Verification
+from llm3.types import ActionSchema, Defect, Entity, GoalStatus, Parameter, Shape, Sketch, Verification
 
 TAKE, PUT, RING = Yard.schemas
 
@@ -29,6 +29,15 @@ def unseeded(self, setting, seed):
 class Gullible(PlanVerifier):
     def verify(self, start, actions):
         return Verification()
+
+
+class Believing(PlanVerifier):
+    def __init__(self, instance):
+        self.env = Yard(instance)
+
+    def verify(self, start, actions):
+        last = actions[-1].state if actions else start
+        return Verification(tuple(map(Defect, self.env.goal(last).unmet)))
 
 
 class Strict(PlanVerifier):
@@ -255,6 +264,12 @@ BESIDES: dict[str, Planted] = {
         "the verifier tells good plans from bad",
         "the verifier finds a plan sound that does nothing.",
         "ask at the end for the goal",
+    ),
+    "believing verifier": Planted(
+        a_yard(verifier=lambda self, instance, options: Believing(instance)),
+        "the verifier tells good plans from bad",
+        "the verifier finds a plan sound of which only the last action is left.",
+        "not to be believed",
     ),
     "strict verifier": Planted(
         a_yard(verifier=lambda self, instance, options: Strict()),

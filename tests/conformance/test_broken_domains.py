@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import broken_answers
 import broken_changes
+import broken_depots
 import broken_memories
 import broken_words
 import pytest
+from depot import Depots
 from yard import Yards
 
 import llm3_birrt.plugin
@@ -14,7 +16,9 @@ import llm3_words.plugin
 from llm3 import Registry, Strategy, hookimpl
 from llm3.testing import check_domain
 
-FAULTS = broken_words.FAULTS | broken_answers.FAULTS | broken_memories.FAULTS | broken_changes.FAULTS
+FAULTS = (
+    broken_words.FAULTS | broken_answers.FAULTS | broken_memories.FAULTS | broken_changes.FAULTS | broken_depots.FAULTS
+)
 
 
 class OneStrategy:
@@ -34,7 +38,11 @@ def registry() -> Registry:
 
 
 def test_a_domain_without_a_fault_has_no_complaint():
-    assert check_domain(Yards()) == check_domain(broken_memories.SOUND) == ()
+    assert check_domain(Yards()) == check_domain(broken_memories.SOUND) == check_domain(Depots()) == ()
+
+
+def test_a_description_without_numbers_is_no_fault(registry):
+    assert check_domain(broken_depots.told_by_halves(40), seeds=(0,), registry=registry) == ()
 
 
 @pytest.mark.parametrize("fault", ["one verdict too few", "a verdict for each joint", "one verdict for all"])

@@ -35,8 +35,10 @@ def templates(tmp_path, monkeypatch):
 
 def test_what_has_no_fault_has_no_complaint():
     assert check_feedback(broken_feedback.Plain()) == ()
+    assert check_feedback(broken_feedback.quoting()) == check_feedback(broken_feedback.verdict_alone()) == ()
     assert check_backend(broken_backends.Echo()) == ()
-    assert check_strategy(of("good")) == check_strategy(of("own task")) == ()
+    for name in ("good", "own task", "wrapped", "nested example", "ends of ranges by name"):
+        assert check_strategy(of(name)) == (), name
     assert check_timer(broken_timers.Steady()) == ()
 
 

@@ -18,7 +18,7 @@ class Curt(FeedbackSynthesizer):
 class Silent(LLMBackend):
     is_language_model = False
     def complete(self, request):
-        return Completion("")
+        return Completion("{}")
 
 @hookimpl
 def llm3_feedback():
@@ -41,6 +41,22 @@ def test_what_is_clean_is_told_in_a_line(command):
     assert command("check corridor").out == ended.out
 
 
+def test_a_problem_of_a_file_is_looked_at(command, tmp_path):
+    assert command(f"instance --domain corridor --seed 3 --out {tmp_path}/mine.json").code == 0
+    ended = command(f"check corridor --instance {tmp_path}/mine.json")
+    assert (ended.code, ended.err) == (0, "")
+    assert "rules, 1 worlds, " in ended.out.splitlines()[-1]
+
+
+def test_a_file_that_holds_no_problem_is_named(command, tmp_path):
+    (tmp_path / "mine.json").write_text('{"gap": "wide"}', encoding="utf-8")
+    ended = command(f"check corridor --instance {tmp_path}/mine.json")
+    assert (ended.code, ended.out) == (3, "")
+    (error,) = ended.err.splitlines()
+    assert error.startswith("llm3: error: ")
+    assert "mine.json" in error
+
+
 def test_each_complaint_is_a_line_and_so_is_the_json(command, install):
     install("llm3_curt", FAULTY.replace("NAME", "curt"))
     ended = command("check curt --kind backend")
@@ -48,7 +64,7 @@ def test_each_complaint_is_a_line_and_so_is_the_json(command, install):
     assert ended.out.splitlines() == [
         "the backend is no language model, and its notice does not say so. Users and records must see what wrote the "
         "replies: fill `notice`.",
-        "backend 'curt': 1 fault (6 rules).",
+        "backend 'curt': 1 fault (8 rules).",
     ]
     told = command("check curt --kind backend --json")
     assert told.code == 1
@@ -96,7 +112,7 @@ def test_a_backend_that_never_answers_is_told_with_the_reason(command, install):
     assert ended.out.splitlines() == [
         "none of 2 requests was answered: the program 'nosuchprog' does not answer. The error says why; what does not "
         "answer cannot be looked at.",
-        "backend 'program:nosuchprog': 1 fault (6 rules).",
+        "backend 'program:nosuchprog': 1 fault (8 rules).",
     ]
 
 
@@ -106,7 +122,7 @@ def test_a_backend_that_answers_once_is_told_of_the_other_time_in_a_remark(comma
     assert (ended.code, ended.err) == (0, "")
     assert ended.out.splitlines() == [
         "remark: It gave no answer, so that could not be looked at: the program 'tired' does not answer.",
-        "backend 'program:tired': no fault (6 rules).",
+        "backend 'program:tired': no fault (8 rules).",
     ]
 
 
@@ -115,6 +131,11 @@ def test_a_backend_that_answers_once_is_told_of_the_other_time_in_a_remark(comma
     [
         ("check twice", "'twice' is the name of a feedback and of a backend: give --kind feedback or --kind backend."),
         ("check birrt --setting easy", "--setting is for a domain, and 'birrt' is a planner."),
+        ("check birrt --instance mine.json", "--instance is for a domain, and 'birrt' is a planner."),
+        (
+            "check corridor --setting default --instance mine.json",
+            "--setting and --instance both choose a problem: give one of them.",
+        ),
         ("check corridor --model gpt", "--model is for a backend, and 'corridor' is a domain."),
         ("check corridor --setting steep", "unknown setting 'steep' of domain 'corridor'. Known: default."),
         ("check http", "the backend 'http' needs the name of a model: give --model NAME"),

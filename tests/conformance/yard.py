@@ -137,8 +137,13 @@ class YardVerifier(PlanVerifier):
         self.env = env
 
     def verify(self, start, actions):
-        last = actions[-1].state if actions else start
-        return Verification(tuple(map(Defect, self.env.goal(last).unmet)))
+        here, defects = start, []
+        for number, step in enumerate(actions, start=1):
+            segments = step.motion.segments
+            if segments and not np.allclose(segments[0].waypoints[0], here.configuration, atol=1e-4):
+                defects.append(Defect("the robot is not where its motion begins", number, str(step.action)))
+            here = step.state
+        return Verification((*defects, *map(Defect, self.env.goal(here).unmet)))
 
 
 class Yards(Domain):

@@ -145,6 +145,10 @@ def test_the_extras_of_a_domain_are_whole_and_the_second_look_sees_what_is_wrong
     assert look(result.start, result.plan).sound
     through = replace(result.plan[1], motion=Motion((Segment("transit", ((0.5, 0.0), (1.9, 0.0))),)))
     sentences = [defect.sentence for defect in look(result.start, (result.plan[0], through)).defects]
-    assert sentences == ["the robot walks through the wall", "the robot is not where the state says"]
+    assert sentences == [
+        "the robot is not where its motion begins",
+        "the robot walks through the wall",
+        "the robot is not where the state says",
+    ]
     assert not look(result.start, result.plan[:1]).sound
     assert "near y = " in names["NamedGap"](instance).task

@@ -4,60 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from llm3.errors import BackendError
 from llm3.interfaces import LLMBackend
 from llm3.jsonio import dumps, loads
-from llm3.parsing import reply_schema
-from llm3.testing.conformance.attempts import SKELETON, context, trace
+from llm3.testing.conformance.answering import REQUESTS, Answering
 from llm3.testing.conformance.complaint import Complaint, Report
 from llm3.testing.conformance.inspection import Fault, Inspection
 from llm3.testing.conformance.values import apart
 from llm3.testing.scripted import ScriptedLLM
-from llm3.types import Completion, Context, Message, Request, Stats
+from llm3.types import Completion, Stats
 
 _COUNTED = {f.name for f in Stats.__dataclass_fields__.values()} - {"seconds"}
 SOLVERS = ("llm_calls", "motion_calls", "reused_actions", "unreadable_replies")
 """What the solver counts."""
-
-
-def _request(seed: int, of: Context) -> Request:
-    """A question such as the loop asks; a model may answer it with a short text."""
-    messages = (
-        Message("system", "You plan for a robot."),
-        Message("user", 'Answer with this JSON object and nothing else: {"Reasoning": "", "Full Plan": []}'),
-    )
-    return Request(messages, of, seed, reply_schema(of.actions, of.objects, of.skeleton), 60.0)
-
-
 INSTEAD = "what a model, a server or a file does wrong is a BackendError, with a sentence for the user"
-REQUESTS = (_request(1, context(skeleton=SKELETON)), _request(2, context(trace(), SKELETON)))
-
-
-class Answering:
-    """A backend at work."""
-
-    def __init__(self, backend: LLMBackend) -> None:
-        self.backend = backend
-        self.refusals: list[BackendError] = []
-        """Why there was no answer."""
-        self._answers: list[Completion] | None = None
-
-    def completed(self, request: Request) -> Completion | None:
-        """The answer; None if there is none to be had."""
-        try:
-            return self.backend.complete(request)
-        except BackendError as error:
-            self.refusals.append(error)
-            return None
-
-    @property
-    def answers(self) -> list[Completion]:
-        """To each request, asked once: answers may cost something."""
-        if self._answers is None:
-            self._answers = []
-            found = [self.completed(request) for request in REQUESTS]
-            self._answers = [answer for answer in found if answer is not None]
-        return self._answers
 
 
 def a_backend_says_what_it_is(answering: Answering) -> Iterator[Fault]:
@@ -83,7 +42,7 @@ def a_backend_says_what_it_is(answering: Answering) -> Iterator[Fault]:
 
 
 def requests_are_answered(answering: Answering) -> Iterator[Fault]:
-    """Messages in, Completion out, whose text is a text; no other error than a BackendError, and not each time."""
+    """Messages in, Completion out, with a text that is not empty; no other error than a BackendError, not each time."""
     if not answering.answers and answering.refusals:
         yield Fault(
             f"none of {len(REQUESTS)} requests was answered: {answering.refusals[0]}",
@@ -92,6 +51,8 @@ def requests_are_answered(answering: Answering) -> Iterator[Fault]:
     for answer in answering.answers:
         if not isinstance(answer, Completion):
             yield Fault(f"complete answers {answer!r:.80}.", "It answers Completion(text), and not the text alone.")
+        elif not answer.text.strip():
+            yield Fault("a request is answered with an empty text.", "Where there is no answer, raise a BackendError.")
         elif loads(dumps(answer), Completion, "the completion") != answer:
             yield Fault("a completion does not survive being written as JSON.", "Its fields are plain texts and Stats.")
 
@@ -123,7 +84,26 @@ def equal_requests_get_equal_answers(answering: Answering) -> Iterator[Fault]:
     if again is not None and again.text != answering.answers[0].text:
         yield Fault(
             f"two equal requests get {apart(answering.answers[0].text, again.text)}.",
-            "Draw from np.random.default_rng(request.seed) and from nothing else.",
+            "Draw from np.random.default_rng(request.seed) and from nothing else; where a person types the replies, "
+            "that is no fault, and such a run cannot be repeated.",
+        )
+
+
+def chance_comes_from_the_request(answering: Answering) -> Iterator[Fault]:
+    """No request draws from the generators that everybody shares, or seeds them."""
+    if answering.drew:
+        yield Fault(
+            "a request draws from the global generator of random or numpy, or seeds it.",
+            "Draw from np.random.default_rng(request.seed), or from a random.Random of your own.",
+        )
+
+
+def nothing_is_printed(answering: Answering) -> Iterator[Fault]:
+    """No request writes to standard output, where a command's results go."""
+    if answering.printed:
+        yield Fault(
+            f"a request prints {answering.printed[:60]!r} on standard output.",
+            "Results go there: use notice, last_words or Completion.notes, and stderr for a question to a person.",
         )
 
 
@@ -139,6 +119,8 @@ RULES = (
     requests_are_answered,
     tokens_are_counted_and_calls_are_not,
     equal_requests_get_equal_answers,
+    chance_comes_from_the_request,
+    nothing_is_printed,
     closing_it_twice_does_no_harm,
 )
 

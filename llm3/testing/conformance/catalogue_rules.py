@@ -11,6 +11,7 @@ from llm3.guarded import place
 from llm3.interfaces import Domain, Options
 from llm3.jsonio import loads, pretty
 from llm3.testing.conformance.inspection import Fault
+from llm3.testing.conformance.purity_rules import global_generators
 
 SEEDS = range(5)
 """How many problems of a setting are compared."""
@@ -113,7 +114,13 @@ def the_same_seed_gives_the_same_instance(subject: Catalogue) -> Iterator[Fault]
     """Two calls of instance with the same arguments are equal, and of the domain's instance type."""
     for setting in subject.settings:
         for seed in SEEDS[:2]:
+            chance = global_generators()
             one, other = subject.domain.instance(setting, seed), subject.domain.instance(setting, seed)
+            if global_generators() != chance:
+                yield Fault(
+                    f"instance({setting!r}, {seed}) draws from the global generator of random or numpy.",
+                    "It would disturb all others who draw from that: make a generator, np.random.default_rng(seed).",
+                )
             if not isinstance(one, subject.domain.instance_type):
                 wanted = subject.domain.instance_type.__name__
                 yield Fault(

@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from math import dist
+from itertools import pairwise
+
+import numpy as np
 
 from llm3.interfaces import Env
 from llm3.prompts import value
+from llm3.testing.conformance.changes import Change, changes
 from llm3.testing.conformance.inspection import Fault
-from llm3.testing.conformance.world import Trial, World
-from llm3.types import Held, State
+from llm3.testing.conformance.world import Trial, World, spread
+from llm3.types import Pose, State
 
-MOVED = 0.01
-"""How far an object has moved of which the model must hear, in metres."""
-
-
-@dataclass(frozen=True)
-class Change:
-    """One part of what an action changed, alone."""
-
-    part: str
-    """What it is, such as ``"where 'cup' is"``."""
-    states: tuple[State, State]
-    """Two states that differ in this part alone; no action need lead from one to the other."""
-    cause: str
-    """What is wrong where nobody can tell the two states apart."""
+STEP, STEPS, SHOWN = 0.02, 5, 3
+"""How an object is shifted, in metres, how often, and how often that must show at least."""
+OBJECTS, STATES = 8, 4
+"""How many objects are shifted, and in how many states."""
+_NUMBER = re.compile(r"-?\d+\.\d+")
 
 
 def described(env: Env, state: State) -> list[str]:
@@ -36,67 +31,112 @@ def described(env: Env, state: State) -> list[str]:
     ]
 
 
+@dataclass
+class _Heard:
+    """What the description tells of one part of the state that actions change."""
+
+    trial: Trial
+    change: Change
+    told: bool = False
+    measured: bool = False
+    """Whether it tells a number of it."""
+    others: tuple[str, ...] = ()
+    """The lines that change, where they are of other objects."""
+
+
 def the_description_follows_the_state(world: World) -> Iterator[Fault]:
-    """Each part of the state that actions change, alone, changes the description in some state."""
+    """Each part of the state that actions change, alone, changes what the description tells of it in some state."""
     changing = [(trial, after) for trial in world.applied if (after := _after(trial)) != trial.state]
-    if changing and not any(_told_apart(world.env, trial.state, after) for trial, after in changing):
+    if changing and not any(_lines(world.env, trial.state, after) for trial, after in changing):
         yield Fault(
             f"the description is the same before and after {changing[0][0]}, which changed the state.",
             "describe must look at the state that it is given, and tell what actions change in it.",
         )
         return
-    silent: dict[str, tuple[Trial, Change]] = {}
-    told: set[str] = set()
+    heard: dict[str, _Heard] = {}
     for trial, after in changing:
-        for change in _changes(world.start, trial.state, after):
-            if change.part in told:
-                continue
+        for change in changes(world.start, trial.state, after):
+            now = heard.setdefault(change.part, _Heard(trial, change))
             with suppress(Exception):  # a state that no action leads to may have no description
-                if _told_apart(world.env, *change.states):
-                    told.add(change.part)
-                else:
-                    silent.setdefault(change.part, (trial, change))
-    for part, (trial, change) in silent.items():
-        if part not in told:
+                _listen(world, change, now)
+    moves = [now for now in heard.values() if now.change.object]
+    measured = any(now.measured for now in moves)
+    for now in heard.values():
+        if now.told:
+            continue
+        if now.others:
             yield Fault(
-                f"{trial} changes {part}, and the description with that alone changed is the same.", change.cause
+                f"{now.trial} changes {now.change.part}, and what that alone changes in the description is told of "
+                f"something else: {now.others[0]}.",
+                "describe tells of each object under its own name, as state.poses has it.",
             )
+        elif measured or not now.change.object or not any(other.told for other in moves):  # west may stay west
+            yield Fault(
+                f"{now.trial} changes {now.change.part}, and the description with that alone changed is the same.",
+                now.change.cause,
+            )
+
+
+def _listen(world: World, change: Change, heard: _Heard) -> None:
+    lines = _lines(world.env, *change.states)
+    name = change.object
+    others = {*world.env.objects, *change.states[0].poses} - {name}
+    if name and lines and all(line.partition(":")[0] in others and not _names(line, name) for line in lines):
+        heard.others = heard.others or tuple(sorted(lines))
+        return
+    heard.told |= bool(lines)
+    heard.measured |= bool(name) and _measured(lines)
+
+
+def a_small_move_is_told(world: World) -> Iterator[Fault]:
+    """Where a number is told of where an object is, it tells moves of 2 cm."""
+    for name in spread(sorted(world.start.poses), OBJECTS):
+        shown = [
+            _shown(world.env, state, name, axis)
+            for state in spread([state for state in world.states if name in state.poses], STATES)
+            for axis in (0, 1)
+        ]
+        counts = [count for count in shown if count is not None]
+        if counts and max(counts) < SHOWN:
+            yield Fault(
+                f"{STEPS} moves of {name!r} by {STEP:g} m each, one after the other, show {max(counts)} times in the "
+                "description.",
+                "describe rounds where an object is too coarsely for a model that has to aim: write centimetres, or "
+                "millimetres.",
+            )
+
+
+def _shown(env: Env, state: State, name: str, axis: int) -> int | None:
+    """How often a number changes while an object is shifted; None where none does, or there is no description."""
+    place = np.array(state.poses[name].position)
+    steps = [place + np.eye(3)[axis] * STEP * step for step in range(STEPS + 1)]
+    poses = [Pose(tuple(map(float, at)), state.poses[name].orientation) for at in steps]
+    with suppress(Exception):
+        told = [tuple(_NUMBER.findall("\n".join(_of(env, state, name, pose)))) for pose in poses]
+        return sum(a != b for a, b in pairwise(told)) or None if len(set(map(len, told))) == 1 else None
+    return None
+
+
+def _of(env: Env, state: State, name: str, pose: Pose) -> list[str]:
+    """The lines on one object, if it stood elsewhere."""
+    return [line for line in described(env, replace(state, poses={**state.poses, name: pose})) if _names(line, name)]
+
+
+def _names(line: str, name: str) -> bool:
+    return re.search(rf"(?<!\w){re.escape(name)}(?!\w)", line) is not None
 
 
 def _after(trial: Trial) -> State:
     return trial.transition.state if trial.transition else trial.state
 
 
-def _told_apart(env: Env, one: State, other: State) -> bool:
-    return described(env, one) != described(env, other)
+def _lines(env: Env, one: State, other: State) -> set[str]:
+    """The lines in which two descriptions differ."""
+    return set(described(env, one)) ^ set(described(env, other))
 
 
-def _changes(start: State, before: State, after: State) -> Iterator[Change]:
-    """Every change of an object's place, of what is held and of a fact; each alone."""
-    for name, pose in after.poses.items():
-        beside, old = (before, before) if name in before.poses else (after, start)  # what was held has no place before
-        if name in old.poses and dist(old.poses[name].position, pose.position) > MOVED:
-            one, other = (replace(beside, poses={**beside.poses, name: p}) for p in (old.poses[name], pose))
-            cause = "describe tells where each object is as state.poses has it."
-            yield Change(f"where {name!r} is", (one, other), cause)
-    if _name(before.held) != _name(after.held):
-        names = {_name(before.held), _name(after.held)}
-        poses = {name: pose for name, pose in before.poses.items() if name not in names}
-        poses |= {name: pose for name, pose in after.poses.items() if name in names}
-        gripped = replace(before, poses=poses, held=after.held)
-        taken, put = _name(after.held), _name(before.held)
-        part = f"whether {taken!r} is held" if taken else f"whether {put!r} is still held"
-        yield Change(part, (before, gripped), "describe tells what is held as state.held has it.")
-    for name in sorted({*before.facts, *after.facts}):
-        if before.facts.get(name) != after.facts.get(name):
-            facts = {key: fact for key, fact in before.facts.items() if key != name}
-            facts |= {name: after.facts[name]} if name in after.facts else {}
-            cause = "describe tells each fact as state.facts has it."
-            yield Change(f"the fact {name!r}", (before, replace(before, facts=facts)), cause)
+def _measured(lines: set[str]) -> bool:
+    return any(_NUMBER.search(line) for line in lines)
 
 
-def _name(held: Held | None) -> str:
-    return held.object if held else ""
-
-
-RULES = (the_description_follows_the_state,)
+RULES = (the_description_follows_the_state, a_small_move_is_told)

@@ -2,103 +2,109 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import islice
-
-import numpy as np
 
 from llm3.budget import Budget
 from llm3.search import search
-from llm3.search.moves import Move, moves_of
 from llm3.seeding import generator
 from llm3.solve import solve
+from llm3.testing.conformance.drawing import Drawing, places_of
 from llm3.testing.conformance.helpers import STRATEGY
 from llm3.testing.conformance.inspection import Inspection
 from llm3.testing.conformance.world import World, spread, tried
 from llm3.testing.scripted import ScriptedLLM, stand_in_script
-from llm3.types import Action, ActionTried, RunEvent, Sketch, State
+from llm3.types import Action, ActionTried, RunEvent, State
 
 LED = Budget(max_llm_calls=10, max_motion_calls=100)
 """What a domain's stand-in may spend."""
 SEARCHED = Budget(max_motion_calls=40)
 """What a search may spend."""
+HURRIED = Budget(max_llm_calls=3, max_motion_calls=10, max_seconds=20)
+"""What either may spend where each answer takes long."""
+MOVES = 5000
+"""Among more actions than these no search finds a plan with so little, and it would take long to begin."""
 WORKED, FAILED = 3, 2
 """How many actions of each kind are taken over from those."""
 AT_START, LATER = 4, 2
 """How many actions of each kind are drawn in the initial state, and in each of some later ones."""
-EACH = 40
+EACH, EACH_LATER = 40, 10
 """How many actions are drawn, at most, so that each object stands once at each place of each kind of action."""
 STATES = 3
 """How many later states."""
 PATIENCE = 30
 """How many more are drawn for a kind that was never carried out, or never refused."""
+HELD = 100
+"""How many more with what is held are drawn, at most, for a kind that was never carried out."""
 
 Pair = tuple[State, Action]
 
 
 def explore(world: World, inspection: Inspection) -> None:
-    """Try actions, and keep what became of them in the world; what raises is a complaint, and the rest goes on."""
-    where = f"{world.setting}, seed {world.seed}"
-    rng = generator("explore", world.setting, world.seed)
-    moves = tuple(moves_of(world.env, world.regions))
+    """Try actions, and keep what became of them in the world; so is what was raised, and the rest goes on."""
+    draw = Drawing(world.env, world.regions, generator("explore", world.setting, world.seed))
+    done: set[Pair] = set()
 
-    def attempt(pairs: Iterator[Pair] | list[Pair]) -> None:
+    def attempt(pairs: Iterable[Pair]) -> None:
         for state, action in pairs:
-            if any((t.state, t.action) == (state, action) for t in world.trials):
+            if (state, action) in done:
                 continue
+            done.add((state, action))
             inspection.actions += 1
             try:
                 trial = tried(world, state, action)
             except (Exception, SystemExit) as error:
-                inspection.raised(error, f"{where}, {action}")
+                world.raised.append(error)
                 continue
             inspection.applied += trial.transition is not None
             world.trials.append(trial)
 
-    attempt(_drawn(moves, [world.start], AT_START, rng))
-    attempt(islice(_each(world, moves, rng), EACH))
+    def each(state: State, count: int) -> Iterator[Pair]:
+        seen = {place for before, action in done if before == state for place in places_of(action)}
+        return ((state, action) for action in islice(draw.each(seen), world.bounded(count)))
+
+    attempt((world.start, action) for action in draw.some(world.start, AT_START))
+    attempt(each(world.start, EACH))
     watch = _Watch()
     try:
-        _solved(world, watch)
+        _solved(world, draw, watch)
     except (Exception, SystemExit) as error:
         world.errors.append(error)
     attempt(watch.chosen())
-    attempt(_drawn(moves, watch.states(world.start), LATER, rng))
-    states = [world.start, *watch.states(world.start)]
-    for name in dict.fromkeys(move.sketch.name for move in moves):
-        of_kind = [move for move in moves if move.sketch.name == name]
-        for _ in range(PATIENCE):
-            trials = [trial for trial in world.trials if trial.action.name == name]
-            if any(t.failure for t in trials) and any(t.transition is not None for t in trials):
+    later = watch.states(world.start)
+    attempt((state, action) for state in later for action in draw.some(state, LATER))
+    telling = _telling([*later, *watch.after, *world.states], world.start)
+    for state in telling:
+        attempt(each(state, EACH_LATER))
+    for schema in draw.schemas:
+        of_kind = [trial for trial in world.trials if trial.action.name == schema.name]
+        best = next((t for t in of_kind if t.transition is not None), of_kind[0] if of_kind else None)
+        if best is not None:
+            attempt((best.state, action) for action in draw.at_the_ends(best.action))
+    for schema in draw.schemas:
+        for state in telling:
+            for action in islice(draw.with_held(schema, state), world.bounded(HELD)):
+                if any(trial.action.name == schema.name for trial in world.applied):
+                    break
+                attempt([(state, action)])
+    states = [world.start, *later]
+    for schema in draw.schemas:
+        for _ in range(world.bounded(PATIENCE)):
+            of_kind = [trial for trial in world.trials if trial.action.name == schema.name]
+            if any(t.failure for t in of_kind) and any(t.transition is not None for t in of_kind):
                 break
-            state = states[rng.integers(len(states))]
-            attempt([(state, of_kind[rng.integers(len(of_kind))].drawn(rng))])
+            state = states[draw.rng.integers(len(states))]
+            attempt([(state, draw.one(schema, state))])
 
 
-def _each(world: World, moves: tuple[Move, ...], rng: np.random.Generator) -> Iterator[Pair]:
-    """In the initial state, each object at each place of each kind of action where it was not yet, in some company."""
-    seen = {place for trial in world.trials for place in _places(trial.action)}
-    for number in rng.permutation(len(moves)):
-        move = moves[number]
-        if not _places(move.sketch) <= seen:
-            seen |= _places(move.sketch)
-            yield world.start, move.drawn(rng)
+def _telling(states: list[State], start: State) -> list[State]:
+    """A state in which something is held, and one in which a fact differs."""
+    holding = next((state for state in states if state.held and state.held != start.held), None)
+    changed = next((state for state in states if state.facts != start.facts), None)
+    return list(dict.fromkeys(state for state in (holding, changed) if state is not None))
 
 
-def _places(of: Action | Sketch) -> set[tuple[str, int, str]]:
-    return {(of.name, place, name) for place, name in enumerate(of.objects)}
-
-
-def _drawn(moves: tuple[Move, ...], states: list[State], count: int, rng: np.random.Generator) -> Iterator[Pair]:
-    """Some actions of each kind in each of the states."""
-    for state in states:
-        for name in dict.fromkeys(move.sketch.name for move in moves):
-            of_kind = [move for move in moves if move.sketch.name == name]
-            for _ in range(count):
-                yield state, of_kind[rng.integers(len(of_kind))].drawn(rng)
-
-
-def _solved(world: World, watch: _Watch) -> None:
+def _solved(world: World, draw: Drawing, watch: _Watch) -> None:
     """Let the domain's stand-in solve the problem, and a search where there is none or it does not; and watch."""
     helpers, stand_in = world.helpers, world.domain.stand_in()
     if helpers.planner is None:
@@ -111,12 +117,22 @@ def _solved(world: World, watch: _Watch) -> None:
             planner=helpers.planner,
             feedback=helpers.feedback,
             prompt=prompt,
-            budget=LED,
+            budget=HURRIED if world.slow else LED,
             observer=watch,
+            clock=world.clock,
         )
+        world.led, world.unmet = result.solved, result.goal.unmet
         world.result = result if result.solved else None
-    if world.result is None:
-        found = search(world.env, planner=helpers.planner, regions=world.regions, budget=SEARCHED, observer=watch)
+    if world.result is None and draw.moves <= MOVES:
+        budget = HURRIED if world.slow else SEARCHED
+        found = search(
+            world.env,
+            planner=helpers.planner,
+            regions=world.regions,
+            budget=budget,
+            observer=watch,
+            clock=world.clock,
+        )
         world.result = found if found.solved else None
 
 
@@ -126,7 +142,7 @@ class _Watch:
     def __init__(self) -> None:
         self._worked: list[Pair] = []
         self._failed: list[Pair] = []
-        self._after: dict[State, None] = {}
+        self.after: dict[State, None] = {}
 
     def __call__(self, event: RunEvent) -> None:
         """Is told of everything."""
@@ -134,7 +150,7 @@ class _Watch:
             kept = self._worked if event.step else self._failed
             kept.append((event.before, event.outcome.action))
             if event.step:
-                self._after.setdefault(event.step.state)
+                self.after.setdefault(event.step.state)
 
     def chosen(self) -> list[Pair]:
         """Some of each kind of action that worked, and of each that failed."""
@@ -142,7 +158,7 @@ class _Watch:
 
     def states(self, start: State) -> list[State]:
         """Some states that were reached, spread over the run."""
-        return spread([state for state in self._after if state != start], STATES)
+        return spread([state for state in self.after if state != start], STATES)
 
 
 def _some(pairs: list[Pair], count: int) -> Iterator[Pair]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from llm3.interfaces import FeedbackSynthesizer
-from llm3.testing.conformance import feedback_rules
+from llm3.testing.conformance import feedback_failures, feedback_rules
 from llm3.testing.conformance.complaint import Complaint, Report
 from llm3.testing.conformance.inspection import Inspection
 from llm3.testing.conformance.telling import Telling
 
 INSTEAD = "there are words for every attempt, also for one without a plan, and for a failure of every kind"
-RULES = feedback_rules.RULES
+RULES = (*feedback_rules.RULES, *feedback_failures.RULES)
 
 
 def check_feedback(synthesizer: FeedbackSynthesizer) -> tuple[Complaint, ...]:

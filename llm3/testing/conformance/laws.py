@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from llm3.testing.conformance import backend, domain, feedback, planner, strategy, timer
+from llm3.testing.conformance import backend, domain_rules, feedback, planner, strategy, timer
 from llm3.testing.conformance.inspection import RAISES, Rule, name_of
 
 
@@ -24,7 +24,7 @@ class Law:
 def laws() -> Mapping[str, tuple[Law, ...]]:
     """All rules by the kind of plugin, in the order in which they are looked at."""
     rules: dict[str, tuple[str, tuple[Rule[Any], ...]]] = {
-        "domain": (domain.INSTEAD, domain.RULES),
+        "domain": (domain_rules.INSTEAD, domain_rules.RULES),
         "planner": (planner.INSTEAD, planner.RULES),
         "feedback": (feedback.INSTEAD, feedback.RULES),
         "backend": (backend.INSTEAD, backend.RULES),

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import chain
 
 import numpy as np
 
+from llm3.interfaces import Env
 from llm3.testing.conformance.inspection import Fault
 from llm3.testing.conformance.samples import places, telling
 from llm3.testing.conformance.values import configuration, difference
 from llm3.testing.conformance.world import Trial, World, applied, prepared, spread
-from llm3.types import Mask, MotionProblem, Vector
+from llm3.types import Action, Mask, MotionProblem, State, Vector
 
 STATES = 12
 """How many states are described again and again."""
@@ -21,6 +23,11 @@ QUERIES = 2
 """How many motion problems of each kind of action are asked again."""
 PLACES = 24
 """How many places of interest in other motion problems are asked about."""
+
+REMEMBERED = (
+    "Keep nothing in the Env that a call changes, unless as a cache that goes by all that the answer depends on: "
+    "the whole State, and the action."
+)
 
 
 def describe_and_goal_look_at_the_state_that_they_are_given(world: World) -> Iterator[Fault]:
@@ -61,6 +68,56 @@ def a_motion_problem_stays_what_it_is(world: World) -> Iterator[Fault]:
                 return
 
 
+def a_new_world_answers_like_one_in_use(world: World) -> Iterator[Fault]:
+    """Asked in another order, and before anything is carried out there, a new world answers the same."""
+    if world.twin is None:
+        return
+    world.twin.reset()
+    for what, ask, answer in _questions(world):
+        found = difference(answer, ask(world.twin))
+        if found and not _chance(world, ask):  # or it was made differently, which another rule tells
+            text = f"a new world {what} differently than one in which actions were carried out: {found}."
+            yield Fault(text, REMEMBERED)
+        if found:
+            return
+
+
+Ask = Callable[[Env], object]
+
+
+def _questions(world: World) -> Iterator[tuple[str, Ask, object]]:
+    """What a new world is asked, the latest first, and what the one in use answers."""
+    for state in reversed(spread(world.states, STATES)):
+        for name, verb in (("describe", "describes"), ("goal", "tells the goal of")):
+            ask = partial(_call, name, state)
+            yield f"{verb} a state of {len(state.poses)} objects", ask, ask(world.env)
+    of_interest = spread(places(problem for _, problem in world.queries), PLACES)
+    looks = {id(trial): telling(problem, of_interest) for trial, problem in world.some_queries(QUERIES)}
+    for trial in reversed(world.again(world.trials)):
+        prepare = partial(_prepare, trial.state, trial.action)
+        yield f"prepares {trial}", prepare, trial.answer
+        if (at := looks.get(id(trial))) is not None and isinstance(trial.answer, MotionProblem):
+            yield f"answers the validity test of {trial}", partial(_free, trial, at), trial.answer.valid(at.copy())
+
+
+def _call(name: str, state: State, env: Env) -> object:
+    return getattr(env, name)(state)
+
+
+def _prepare(state: State, action: Action, env: Env) -> object:
+    return prepared(env, state, action)
+
+
+def _free(trial: Trial, at: Vector, env: Env) -> object:
+    problem = prepared(env, trial.state, trial.action)
+    return problem.valid(at.copy()) if isinstance(problem, MotionProblem) else problem
+
+
+def _chance(world: World, ask: Ask) -> bool:
+    """Whether two new worlds, of which nothing else was asked, answer differently as well."""
+    return bool(difference(ask(world.another()), ask(world.another())))
+
+
 def _disturbances(world: World) -> Iterator[str]:
     """Reset the world, prepare some actions and carry them out; say after each what was done."""
     world.env.reset()
@@ -75,4 +132,5 @@ def _disturbances(world: World) -> Iterator[str]:
 RULES = (
     describe_and_goal_look_at_the_state_that_they_are_given,
     a_motion_problem_stays_what_it_is,
+    a_new_world_answers_like_one_in_use,
 )

@@ -11,7 +11,6 @@ from llm3.testing.conformance.values import configuration, programmer_talk
 from llm3.testing.conformance.world import World
 from llm3.types import (
     ITSELF,
-    EventKind,
     Failure,
     FailureKind,
     MotionProblem,
@@ -110,60 +109,9 @@ def the_robot_is_where_its_motion_ends(world: World) -> Iterator[Fault]:
             )
 
 
-def no_object_and_no_fact_gets_lost(world: World) -> Iterator[Fault]:
-    """What stood or was held before an action stands, is held or is told of after it, and facts do not all vanish."""
-    for trial in world.applied:
-        if trial.transition is None:
-            continue
-        before, after = trial.state, trial.transition.state
-        told = {entity.name for entity in world.env.describe(after)}
-        there = {*after.poses, *((after.held.object,) if after.held else ()), *told}
-        for name in sorted({*before.poses, *((before.held.object,) if before.held else ())} - there):
-            yield Fault(
-                f"after {trial} {name!r} is neither somewhere nor held.",
-                "apply answers the whole next state: keep the poses of what did not move, and what is held.",
-            )
-        if before.facts and not after.facts:
-            yield Fault(
-                f"after {trial} all facts are gone: {dict(before.facts)}.",
-                "apply answers the whole next state: State(..., facts=state.facts) keeps them.",
-            )
-
-
-def what_is_taken_was_somewhere(world: World) -> Iterator[Fault]:
-    """What an action takes into the hand stood somewhere before; of worlds that keep no poses nothing is said."""
-    if not world.start.poses:
-        return
-    for trial in world.applied:
-        if trial.transition is None or trial.transition.state.held is None:
-            continue
-        before, name = trial.state, trial.transition.state.held.object
-        if name not in before.poses and (before.held is None or before.held.object != name):
-            yield Fault(
-                f"{trial} picks up {name!r}, which stood nowhere.",
-                "Any object can stand in any slot of an action: prepare refuses what makes no sense as a PRECONDITION.",
-            )
-
-
-def the_grip_is_what_the_events_say(world: World) -> Iterator[Fault]:
-    """After a motion with an attach event the object is held, and after a detach event it is not."""
-    for trial in world.applied:
-        events = [e for e in (trial.motion.events if trial.motion else ()) if e.kind is not EventKind.GRIPPER]
-        if not events or trial.transition is None:
-            continue
-        last, held = events[-1], trial.transition.state.held
-        name = held.object if held else None
-        if last.kind is EventKind.ATTACH and name != last.object:
-            text = f"{trial} ends with {last.object!r} attached, and the state after it holds {name!r}."
-            yield Fault(text, "State.held and the events of the goal's pieces tell the same story.")
-        if last.kind is EventKind.DETACH and name is not None and name == last.object:
-            text = f"{trial} ends with {last.object!r} detached, and the state after it still holds it."
-            yield Fault(text, "State.held and the events of the goal's pieces tell the same story.")
-
-
 def something_can_be_done(world: World) -> Iterator[Fault]:
     """Of all actions that are tried, some can be carried out."""
-    if world.trials and not world.applied and world.helpers.planner is not None:
+    if world.trials and not world.applied and not world.malformed and world.helpers.planner is not None:
         kinds = sorted({trial.failure.kind.value for trial in world.refused if trial.failure})
         yield Fault(
             f"none of {len(world.trials)} actions could be carried out: {', '.join(kinds)}.",
@@ -171,14 +119,13 @@ def something_can_be_done(world: World) -> Iterator[Fault]:
         )
 
 
+FORM_RULES = (apply_answers_a_transition,)
+"""Looked at before anything else is asked of what actions led to."""
 RULES = (
     prepare_answers_what_it_may,
     failures_say_why,
     failures_name_what_the_model_knows,
-    apply_answers_a_transition,
     the_robot_is_where_its_motion_ends,
-    no_object_and_no_fact_gets_lost,
-    what_is_taken_was_somewhere,
-    the_grip_is_what_the_events_say,
-    something_can_be_done,
 )
+LAST_RULES = (something_can_be_done,)
+"""Looked at once it is known what a world remembers, and what is wrong with its motion problems."""

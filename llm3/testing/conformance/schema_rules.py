@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain, islice
 
 from llm3.jsonio import dumps
 from llm3.parsing import parse_reply
-from llm3.search.moves import moves_of
 from llm3.seeding import generator
+from llm3.testing.conformance.drawing import Drawing
 from llm3.testing.conformance.inspection import Fault
 from llm3.testing.conformance.world import World
 from llm3.types import ActionSchema, Proposal, Rejected
+
+READ = 400
+"""How many actions are read back at most, so that each object stands once at each place."""
 
 
 def schemas_tell_what_there_is_to_do(world: World) -> Iterator[Fault]:
@@ -59,8 +63,8 @@ def objects_have_different_names(world: World) -> Iterator[Fault]:
 def actions_read_back(world: World) -> Iterator[Fault]:
     """What str() writes of an action is read back as that action, to the last bit."""
     rng = generator("actions", world.seed)
-    for move in moves_of(world.env, {}):
-        action = move.drawn(rng)
+    draw = Drawing(world.env, {}, rng)
+    for action in chain(draw.some(world.start, 1), islice(draw.each(set()), READ)):
         reply = dumps({"Reasoning": "", "Full Plan": [str(action)]})
         read = parse_reply(reply, world.env.schemas, world.env.objects)
         item = read.actions[0] if isinstance(read, Proposal) and read.actions else read
@@ -72,4 +76,20 @@ def actions_read_back(world: World) -> Iterator[Fault]:
             )
 
 
-RULES = (schemas_tell_what_there_is_to_do, objects_have_different_names, actions_read_back)
+FORM_RULES = (schemas_tell_what_there_is_to_do, objects_have_different_names)
+"""Looked at before any action is drawn."""
+RULES = (actions_read_back,)
+
+
+def usable(world: World) -> bool:
+    """Whether actions can be drawn."""
+    try:
+        schemas, objects = world.env.schemas, world.env.objects
+    except (Exception, SystemExit):  # a rule tells of it
+        return False
+    return (
+        isinstance(schemas, tuple | list)
+        and isinstance(objects, tuple | list)
+        and all(isinstance(schema, ActionSchema) for schema in schemas)
+        and all(isinstance(name, str) for name in objects)
+    )

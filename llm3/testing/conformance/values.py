@@ -45,7 +45,7 @@ def _differences(one: Any, other: Any, name: str) -> Iterator[str]:
     elif isinstance(one, Mapping) and set(one) == set(other):
         for key in one:
             yield from _differences(one[key], other[key], f"{name}[{key!r}]")
-    elif one != other:
+    elif one != other and repr(one) != repr(other):  # what is no number is not equal to itself
         yield f"{name} is {apart(one, other)}"
 
 

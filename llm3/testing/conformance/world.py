@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,6 +12,8 @@ import numpy as np
 from llm3.interfaces import Domain, Env, Options, Regions
 from llm3.seeding import generator
 from llm3.testing.conformance.helpers import Helpers
+from llm3.testing.conformance.look import Look
+from llm3.testing.conformance.regions import usable_regions
 from llm3.testing.conformance.samples import malformed
 from llm3.types import (
     Action,
@@ -26,6 +29,8 @@ from llm3.types import (
 )
 
 T = TypeVar("T")
+SLOW, FEW = 0.1, 6
+"""How long `prepare` takes in a world of which less is asked, in seconds, and what is asked of it."""
 QUERIES = 4
 """How many motion problems of each kind of action are looked at."""
 
@@ -67,13 +72,34 @@ class World:
     """Another world of the same instance; only some have one, as it may be dear."""
     spare: Env | None
     """A world of another instance that is no longer needed."""
+    another: Callable[[], Env]
+    """Makes one more world of the instance; whoever made this one closes it."""
     helpers: Helpers
+    clock: Callable[[], float]
+    """Seconds."""
+    where: str
+    """What sentences about it begin with, such as ``"easy, seed 1"``."""
     start: State = field(init=False)
     trials: list[Trial] = field(default_factory=list)
     result: Result | None = None
     """A solution, where one was found."""
+    led: bool | None = None
+    """Whether the domain's stand-in found it; None where there is none, or it raised something."""
+    unmet: tuple[str, ...] = ()
+    """What of the goal the stand-in left out at last."""
+    idle: Mapping[tuple[str, str], bool] = field(default_factory=dict)
+    """By action and parameter, whether other values of it have the same outcome."""
+    look: Look | None = None
+    """What it tells of itself."""
+    pure: bool = True
+    """Whether it keeps nothing to itself, as far as was seen."""
+    asked: int = 0
+    spent: float = 0.0
+    """How many actions were prepared to be tried, and how long that took."""
     remade: Env | None = None
     """What became of the spare world, if the domain could use it."""
+    raised: list[BaseException] = field(default_factory=list)
+    """What was raised while actions were tried."""
     errors: list[BaseException] = field(default_factory=list)
     """What was raised while a planner, a stand-in or a search was at work."""
     verified: bool = False
@@ -82,11 +108,23 @@ class World:
     def __post_init__(self) -> None:
         self.start = self.env.reset()
 
-    @property
+    @cached_property
     def regions(self) -> Regions:
-        """Where the domain would sample."""
-        found = self.domain.regions(self.instance)
-        return found if isinstance(found, Mapping) else {}
+        """Where the domain would sample; nothing where one of its regions is none."""
+        return usable_regions(self.domain, self.instance, self.env)
+
+    @property
+    def slow(self) -> bool:
+        """Whether answers take so long that fewer questions must do."""
+        return self.spent > SLOW * self.asked
+
+    def bounded(self, count: int) -> int:
+        """So many, or a few where answers take long."""
+        return min(count, FEW) if self.slow else count
+
+    def again(self, trials: Sequence[Trial]) -> list[Trial]:
+        """Those of the trials that are asked again."""
+        return spread(trials, self.bounded(len(trials)))
 
     @property
     def skeleton(self) -> tuple[Sketch, ...]:
@@ -140,7 +178,9 @@ def prepared(env: Env, state: State, action: Action) -> MotionProblem | NoMotion
 
 def tried(world: World, state: State, action: Action) -> Trial:
     """Carry an action out as a rollout does."""
+    began = world.clock()
     answer = prepared(world.env, state, action)
+    world.asked, world.spent = world.asked + 1, world.spent + world.clock() - began
     if isinstance(answer, Failure):
         return Trial(state, action, answer, failure=answer)
     motion = Motion()

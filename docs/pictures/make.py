@@ -1,4 +1,4 @@
-"""Makes the pictures of the domains: the end of a solved run of each, drawn by PyBullet's software renderer.
+"""Makes the pictures of the domains with an arm: the end of a solved run of each, and of the kitchen the start as well.
 
 It needs PyBullet and Pillow, which come with ``pip install '.[docs]'``, and no screen::
 
@@ -8,62 +8,53 @@ It needs PyBullet and Pillow, which come with ``pip install '.[docs]'``, and no 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from types import MappingProxyType
 
 from PIL import Image
 
 from llm3 import Registry
 from llm3.assembly import RunConfig, assemble
-from llm3.types import Pose
-from llm3_bullet.clients import connect
-from llm3_bullet.model import RobotModel
-from llm3_bullet.robots.panda import panda
-from llm3_bullet.scene import Box
-from llm3_bullet.stage import Stage
-from llm3_bullet.tabletop.env import TabletopEnv
-from llm3_bullet.tabletop.window import CAMERA, color_of
+from llm3.playback import frames, open_stage
+from llm3.types import Moment
 
 FOLDER = Path(__file__).parent
-RUNS: Mapping[str, RunConfig] = MappingProxyType(
-    {
-        "boxpack": RunConfig("boxpack", setting="hard-small", seed=0),
-        "blocks": RunConfig("blocks", setting="blocks-6", seed=0),
-    }
-)
-"""By the name of the picture."""
-WIDTH, HEIGHT = 800, 600
+RUNS = {
+    "boxpack": (RunConfig("boxpack", setting="hard-small", seed=0), ("end",)),
+    "blocks": (RunConfig("blocks", setting="blocks-6", seed=0), ("end",)),
+    "kitchen": (RunConfig("kitchen", setting="kitchen-5", seed=0), ("start", "end")),
+}
+"""By the name of the picture: the run, and which moments of it stand side by side."""
+WIDTH, HEIGHT, GAP = 800, 600, 8
 OVERSAMPLING = 2  # the renderer does not smooth edges, so a larger picture is made smaller
 
 
 def main(names: Iterable[str]) -> None:
     """Solve, draw and write."""
     for name in names:
-        draw(RUNS[name], FOLDER / f"{name}.png")
+        pictures = list(drawn(*RUNS[name]))
+        whole = Image.new("RGB", (len(pictures) * (WIDTH + GAP) - GAP, HEIGHT), "white")
+        for index, picture in enumerate(pictures):
+            whole.paste(picture, (index * (WIDTH + GAP), 0))
+        whole.save(FOLDER / f"{name}.png", optimize=True)
 
 
-def draw(config: RunConfig, target: Path) -> None:
-    """The picture of one run."""
-    with assemble(Registry.discover(), config) as run, connect() as client:
-        plan = run.solve().plan
-        if not plan or not isinstance(run.problem.env, TabletopEnv):
-            raise SystemExit("the run is not solved, so there is nothing to draw")
-        state, events = plan[-1].state, plan[-1].motion.events
-        opening = [event.opening for event in events if event.opening is not None][-1]
-        boxes = trimmed(run.problem.env.scene(state).boxes)
-        stage = Stage(client, RobotModel(panda()), {box.name: color_of(box.name) for box in boxes}, CAMERA)
-        stage.show(boxes, state.configuration, None, opening)
-        pixels = stage.picture(WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING)
-    picture = Image.fromarray(pixels).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
-    picture.save(target, optimize=True)
-
-
-def trimmed(boxes: Iterable[Box]) -> list[Box]:
-    """The boxes with a table that the renderer's shadows cover to its edges."""
-    table = {"size": (1.2, 1.5, 0.05), "pose": Pose((0.4, 0.0, -0.025))}
-    return [replace(box, **table) if box.name == "table" else box for box in boxes]
+def drawn(config: RunConfig, wanted: Iterable[str]) -> Iterator[Image.Image]:
+    """Pictures of one run."""
+    with assemble(Registry.discover(), config) as run:
+        result, problem = run.solve(), run.problem
+    if not result.solved:
+        raise SystemExit("the run is not solved, so there is nothing to draw")
+    moments: list[Moment] = [frame.moment for frame in frames(result.start, result.plan, rate=5.0)]
+    shown = {"start": moments[0], "end": moments[-1]}
+    stage = open_stage(problem.domain, problem.instance, problem.options, result.start, "a picture")
+    try:
+        for name in wanted:
+            stage.show(shown[name])
+            pixels = stage.picture(WIDTH * OVERSAMPLING, HEIGHT * OVERSAMPLING)
+            yield Image.fromarray(pixels).resize((WIDTH, HEIGHT), Image.Resampling.LANCZOS)
+    finally:
+        stage.close()
 
 
 if __name__ == "__main__":

@@ -11,18 +11,17 @@ from pathlib import Path
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Polygon
 
 from llm3 import Registry, RunConfig, assemble
-from llm3.types import PlannedAction, State
+from llm3.types import PlannedAction, State, color_of
 from llm3_tabletop2d.domain import Tabletop2D
 from llm3_tabletop2d.instance import TabletopInstance
 
 TARGET = Path(__file__).with_name("tabletop2d.png")
 SEED = 0
-COLORS = {"red": "#d1403a", "blue": "#3b6fc4", "green": "#4b9a5f", "tan": "#d9b382", "yellow": "#e3c243"}
-COLORS |= {"brown": "#9a6b45", "grey": "#8d8d8d"}
-WALL, REGION, ROBOT = "#444444", "#eee6d3", "#222222"
+OPTIONS = {"robot_radius": "0.03"}
+ROBOT = "#222222"
 
 
 def main() -> None:
@@ -43,20 +42,16 @@ def draw(
     axes: Axes, domain: Tabletop2D, instance: TabletopInstance, start: State, plan: tuple[PlannedAction, ...]
 ) -> None:
     """The start as outlines, the end filled, and the way of the robot between them."""
-    fixed = {wall.name: WALL for wall in instance.walls} | {region.name: REGION for region in instance.regions}
     for state, filled in ((start, False), (plan[-1].state, True)):
-        for shape in domain.top_view(instance, state):
+        for shape in domain.top_view(instance, OPTIONS, state):
             if shape.fixed and filled:
-                color = fixed.get(shape.name, "none")
-                axes.add_patch(Polygon(shape.corners, facecolor=color, edgecolor="none", zorder=0))
+                axes.add_patch(Polygon(shape.corners, facecolor=shape.color, edgecolor="none", zorder=0))
             elif not shape.fixed:
-                color = COLORS.get(shape.name.partition("_")[0], "black")
+                color = shape.color or color_of(shape.name)
                 style = {"facecolor": color, "zorder": 3} if filled else {"facecolor": "none", "zorder": 2, "ls": ":"}
                 axes.add_patch(Polygon(shape.corners, edgecolor=color, lw=1.4, **style))
     way = [point for step in plan for segment in step.motion.segments for point in segment.waypoints]
     axes.plot(*zip(*way, strict=True), color=ROBOT, lw=0.5, alpha=0.5, zorder=1)
-    axes.add_patch(Circle(start.configuration, 0.03, facecolor="none", edgecolor=ROBOT, zorder=2, ls=":"))
-    axes.add_patch(Circle(plan[-1].state.configuration, 0.03, color=ROBOT, zorder=3))
     axes.set(xlim=(0, instance.room[0]), ylim=(0, instance.room[1]), aspect="equal", xticks=(), yticks=())
 
 

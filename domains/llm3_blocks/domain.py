@@ -58,7 +58,7 @@ class Blocks(TabletopDomain):
 
         return BlocksVerifier(instance, find_robot(options["robot"]))
 
-    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...]:
+    def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...]:  # noqa: ARG002  # the same for all
         """The blocks."""
         from llm3_blocks.top_view import top_view
 

@@ -73,7 +73,7 @@ class BoxPack(TabletopDomain):
 
         return BoxpackVerifier(instance, find_robot(options["robot"]), _wall_height(options["walls"]))
 
-    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...]:
+    def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...]:  # noqa: ARG002  # the same for all
         """The basket and the boxes."""
         from llm3_boxpack.top_view import top_view
 

@@ -52,7 +52,7 @@ class Kitchen(TabletopDomain):
 
         return KitchenVerifier(instance, find_robot(options["robot"]))
 
-    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...]:
+    def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...]:  # noqa: ARG002  # the same for all
         """The places, the food and the clutter."""
         from llm3_kitchen.top_view import top_view
 

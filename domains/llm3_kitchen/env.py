@@ -26,11 +26,11 @@ from llm3_bullet.tabletop.tabletop import Tabletop
 from llm3_bullet.workcell import Workcell
 from llm3_kitchen.actions import HEAT, PICK, PLACE, WASH
 from llm3_kitchen.chores import chore
-from llm3_kitchen.colors import COLORS
 from llm3_kitchen.facts import HEATED, WASHED, at_first, made_true
 from llm3_kitchen.goal import goal_status
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import furniture, surfaces
+from llm3_kitchen.looks import CAMERA, COLORS, marks
 from llm3_kitchen.wording import describe, task_text
 
 DEEDS = {WASH.name: WASHED, HEAT.name: HEATED}
@@ -40,7 +40,7 @@ DEEDS = {WASH.name: WASHED, HEAT.name: HEATED}
 class KitchenEnv(TabletopEnv):
     """Food among clutter, places where something can be done with it, and an arm."""
 
-    colors = FrozenDict(COLORS)
+    camera = CAMERA
 
     def __init__(self, instance: KitchenInstance, workcell: Workcell) -> None:
         """Set up the world.
@@ -59,6 +59,9 @@ class KitchenEnv(TabletopEnv):
         areas = {place.name: place.area for place in instance.places}
         super().__init__(Tabletop(workcell, furniture(instance.places), things, high, areas, instance.to_move))
         self._in_hand = Manipulation(self.tabletop.sizes, (), workcell.gripper).in_hand
+        marked = dict(marks(instance.places))
+        self.marks = tuple(marked)
+        self.colors = FrozenDict({**COLORS, **{mark.name: color for mark, color in marked.items()}})
 
     @property
     def task(self) -> str:

@@ -55,11 +55,11 @@ class Tabletop2D(Domain):
 
         return TabletopVerifier(instance, _radius(options["robot_radius"]), MAX_VELOCITY, MAX_ACCELERATION)
 
-    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...]:
-        """The room, the walls, the regions and the objects."""
+    def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...]:
+        """The room, the walls, the regions, the objects and the robot."""
         from llm3_tabletop2d.top_view import top_view
 
-        return top_view(instance, state)
+        return top_view(instance, _radius(options["robot_radius"]), state)
 
 
 def _radius(text: str) -> float:

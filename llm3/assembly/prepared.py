@@ -58,11 +58,10 @@ class Prepared:
         """One line that the user should read before the run, or nothing."""
         return self.solver.notice
 
-    def open(self, window: bool = False, spare: Env | None = None) -> Run:
+    def open(self, spare: Env | None = None) -> Run:
         """Make the world. The run has what was prepared from now on, and closes it.
 
         Args:
-            window: Whether to show the world in the domain's window.
             spare: A world of such a domain that is no longer needed, see `Run.release`: it is used up, either by
                 `Domain.remake`, which is quicker than a new world, or by being closed.
 
@@ -70,7 +69,7 @@ class Prepared:
             LLM3Error: The world cannot be made; then all is closed.
         """
         try:
-            env = open_world(self.domain, self.instance, self.options, window, spare, self.source)
+            env = open_world(self.domain, self.instance, self.options, spare, self.source)
         except BaseException:
             self.close()
             raise
@@ -90,22 +89,19 @@ class Prepared:
         self.close()
 
 
-def assemble(
-    registry: Registry, config: RunConfig, instance: Any = None, window: bool = False, source: str = ""
-) -> Run:
+def assemble(registry: Registry, config: RunConfig, instance: Any = None, source: str = "") -> Run:
     """Make everything that a run needs, the world as well: :func:`prepare`, and :meth:`Prepared.open`.
 
     Args:
         registry: Where the names are looked up.
         config: What the user asks for.
         instance: The problem, where it does not come from setting and seed.
-        window: Whether to show the world in the domain's window.
         source: Where the instance comes from, such as its file, for messages about it.
 
     Raises:
         LLM3Error: A name is unknown, or the domain lacks what the strategy or the backend needs.
     """
-    return prepare(registry, config, instance, source).open(window)
+    return prepare(registry, config, instance, source).open()
 
 
 def prepare(registry: Registry, config: RunConfig, instance: Any = None, source: str = "") -> Prepared:

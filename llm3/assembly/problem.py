@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Any
 
 from llm3.assembly.choices import settle_options
-from llm3.errors import InstanceError, MissingCapability
+from llm3.errors import InstanceError
 from llm3.guarded import guarded
 from llm3.interfaces import Domain, Env, Options
 
@@ -43,10 +43,8 @@ class Problem:
         self.close()
 
 
-def open_problem(
-    domain: Domain, instance: Any, options: Mapping[str, str], window: bool = False, source: str = ""
-) -> Problem:
-    """Make the world of an instance, and show it in a window if asked.
+def open_problem(domain: Domain, instance: Any, options: Mapping[str, str], source: str = "") -> Problem:
+    """Make the world of an instance.
 
     Its options are those that a record keeps: `Domain.self_contained`.
 
@@ -54,58 +52,41 @@ def open_problem(
         domain: What it is a problem of.
         instance: The problem.
         options: Those that differ from their defaults.
-        window: Whether to show the world in the domain's window.
         source: Where the instance comes from, such as its file, for messages about it.
 
     Raises:
         UnknownName: The domain has no such option.
-        MissingCapability: The domain has no window.
         InstanceError: No world can be made of the instance.
     """
     chosen = settle_options(domain, options)
-    return Problem(domain, instance, chosen, open_world(domain, instance, chosen, window, source=source))
+    return Problem(domain, instance, chosen, open_world(domain, instance, chosen, source=source))
 
 
-def open_world(
-    domain: Domain,
-    instance: Any,
-    options: Options,
-    window: bool = False,
-    spare: Env | None = None,
-    source: str = "",
-) -> Env:
-    """A world for an instance, in a window if asked, or out of a spare one where the domain can do that.
+def open_world(domain: Domain, instance: Any, options: Options, spare: Env | None = None, source: str = "") -> Env:
+    """A world for an instance, out of a spare one where the domain can do that.
 
     The spare world is used up in any case.
 
     Raises:
-        MissingCapability: The domain has no window.
         InstanceError: No world can be made of the instance; the source, if there is one, comes first.
     """
     try:
-        return _world(domain, instance, options, window, spare)
+        return _world(domain, instance, options, spare)
     except InstanceError as error:
         if not source:
             raise
         raise InstanceError(f"{source}: {error}") from error
 
 
-def _world(domain: Domain, instance: Any, options: Options, window: bool, spare: Env | None) -> Env:
-    remade = None if spare is None else _remade(domain, instance, options, window, spare)
-    if remade is not None:
-        return remade
-    if not window:
-        return guarded(domain.make, (Env,), instance, options)
-    env = guarded(domain.make_in_window, (Env, type(None)), instance, options)
-    if env is None:
-        raise MissingCapability(domain.name, "window", "--gui")
-    return env
+def _world(domain: Domain, instance: Any, options: Options, spare: Env | None) -> Env:
+    remade = None if spare is None else _remade(domain, instance, options, spare)
+    return guarded(domain.make, (Env,), instance, options) if remade is None else remade
 
 
-def _remade(domain: Domain, instance: Any, options: Options, window: bool, spare: Env) -> Env | None:
+def _remade(domain: Domain, instance: Any, options: Options, spare: Env) -> Env | None:
     env = None
     try:
-        env = None if window else guarded(domain.remake, (Env, type(None)), spare, instance, options)
+        env = guarded(domain.remake, (Env, type(None)), spare, instance, options)
     finally:
         if env is None:
             with suppress(Exception):  # it has done its work, and the new world must not answer for it

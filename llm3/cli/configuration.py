@@ -33,10 +33,10 @@ def assembled(registry: Registry, arguments: Namespace) -> Run:
     folder = _replayed_folder(given)
     if folder:
         _refuse_contradictions(arguments, given, read_run(folder), folder)
-        return repeat(registry, folder, arguments.gui)
+        return repeat(registry, folder)
     domain = chosen_domain(registry, arguments)
     instance, source = loaded_instance(domain, arguments), str(arguments.instance or "")
-    return assemble(registry, RunConfig(**given), instance, arguments.gui, source)
+    return assemble(registry, RunConfig(**given), instance, source)
 
 
 def _given(arguments: Namespace) -> dict[str, Any]:

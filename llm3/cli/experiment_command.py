@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import Executor
 from contextlib import contextmanager
@@ -16,7 +16,7 @@ from llm3.cli.experiment_choice import (
     chosen_part,
 )
 from llm3.cli.experiment_preview import preview
-from llm3.cli.problem_arguments import pair, path
+from llm3.cli.problem_arguments import pair, path, whole
 from llm3.cli.text import emit, printable
 from llm3.errors import UsageError
 from llm3.experiments import (
@@ -158,9 +158,7 @@ def _results(folder: Path) -> str:
 
 
 def _count(text: str) -> int:
-    if text.isascii() and text.isdigit() and 1 <= int(text) <= MOST_WORKERS:
-        return int(text)
-    raise ArgumentTypeError(f"expected a whole number from 1 to {MOST_WORKERS}, not {text!r}")
+    return whole(text, 1, MOST_WORKERS)
 
 
 def _limit(text: str) -> tuple[str, int]:

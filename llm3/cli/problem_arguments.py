@@ -94,11 +94,16 @@ def path(text: str) -> Path:
     return Path(text)
 
 
+def whole(text: str, least: int, most: int) -> int:
+    """A whole number, for arguments."""
+    if text.isascii() and text.isdigit() and len(text) <= len(str(most)) and least <= int(text) <= most:
+        return int(text)
+    raise ArgumentTypeError(f"expected a whole number from {least} to {most}, not {text!r}")
+
+
 def seed(text: str) -> int:
     """A seed, for arguments."""
-    if text.isascii() and text.isdigit() and len(text) <= len(str(LARGEST_SEED)) and int(text) <= LARGEST_SEED:
-        return int(text)
-    raise ArgumentTypeError(f"expected a whole number from 0 to {LARGEST_SEED}, not {text!r}")
+    return whole(text, 0, LARGEST_SEED)
 
 
 def pair(text: str, form: str) -> tuple[str, str]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from argparse import ArgumentParser, Namespace
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from datetime import datetime
 from pathlib import Path
 from typing import TextIO
 
-from llm3.assembly import RunConfig
+from llm3.assembly import Problem, RunConfig
 from llm3.cli.configuration import CONFIGURATION, assembled
 from llm3.cli.problem_arguments import (
     add_problem_arguments,
@@ -20,6 +21,7 @@ from llm3.cli.problem_arguments import (
 from llm3.cli.text import emit
 from llm3.errors import OutputExists, UsageError
 from llm3.jsonio import dumps
+from llm3.playback import Live, open_window
 from llm3.prices import read_prices
 from llm3.records import CassetteRecorder, Recorder, check_cassette, create_default_folder, create_folder
 from llm3.registry import Registry
@@ -119,7 +121,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     _check_places(arguments)
     prices = read_prices(arguments.prices) if arguments.prices else {}
     registry = Registry.discover()
-    with assembled(registry, arguments) as ready:
+    with assembled(registry, arguments) as ready, _screen(ready.problem, arguments.gui) as screen:
         config = ready.config
         if config.is_search and arguments.record:
             raise UsageError("a search asks no model, so --record would keep nothing: leave it out.")
@@ -144,9 +146,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
             stack.enter_context(view)
 
             def observe(event: RunEvent) -> None:
-                record(event)
-                tape(event)
-                view(event)
+                for observer in (record, tape, view, screen):
+                    observer(event)
 
             result = ready.solve(observe)
         price = prices.get(config.model or "")
@@ -161,6 +162,16 @@ def run(arguments: Namespace, out: TextIO) -> int:
         else:
             emit("".join(f"{step.action}\n" for step in result.plan), out)
         return 0 if result.solved else 1
+
+
+@contextmanager
+def _screen(problem: Problem, gui: bool) -> Iterator[Observer]:
+    """What shows the run in a window, if that is asked for."""
+    if not gui:
+        yield nobody
+        return
+    with Live(open_window(problem.domain, problem.instance, problem.options)) as live:
+        yield live
 
 
 def _check_places(arguments: Namespace) -> None:

@@ -8,6 +8,7 @@ from llm3.interfaces.free_space import FreeSpace
 from llm3.interfaces.model_source import ModelSource
 from llm3.interfaces.planner import MotionPlanner, PlannerSettings
 from llm3.interfaces.sampling import Ranges, drawn, sampling_ranges
+from llm3.interfaces.stage import Picture, Stage
 from llm3.interfaces.strategy import Strategy
 from llm3.interfaces.timing import TrajectoryTimer
 from llm3.interfaces.verifier import PlanVerifier
@@ -24,10 +25,12 @@ __all__ = [
     "MotionPlanner",
     "Option",
     "Options",
+    "Picture",
     "PlanVerifier",
     "PlannerSettings",
     "Ranges",
     "Regions",
+    "Stage",
     "StandIn",
     "Strategy",
     "TrajectoryTimer",

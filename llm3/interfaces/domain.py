@@ -9,6 +9,7 @@ from typing import Any
 
 from llm3.interfaces.backend import Regions, StandIn
 from llm3.interfaces.env import Env
+from llm3.interfaces.stage import Stage
 from llm3.interfaces.verifier import PlanVerifier
 from llm3.types import Shape, Sketch, State
 
@@ -84,8 +85,16 @@ class Domain(ABC):
         """A rule-based stand-in for a model, which knows no more than the prompt tells."""
         return None
 
-    def make_in_window(self, instance: Any, options: Options) -> Env | None:  # noqa: ARG002  # part of the interface
-        """Like `make`, with the world shown in a window."""
+    def stage(self, instance: Any, options: Options, window: bool = False) -> Stage | None:  # noqa: ARG002  # as above
+        """Where problems of this instance are shown: for ``--gui``, and for pictures and films.
+
+        Without one, pictures are drawn from `top_view`, and there is no window.
+
+        Args:
+            instance: As for `make`.
+            options: As for `make`.
+            window: Whether it is to be a window on a screen; None if there is no such window.
+        """
         return None
 
     def remake(self, env: Env, instance: Any, options: Options) -> Env | None:  # noqa: ARG002  # part of the interface
@@ -105,11 +114,14 @@ class Domain(ABC):
         """A second look at plans of this instance, for ``llm3 verify``; it shares no code with `make`."""
         return None
 
-    def top_view(self, instance: Any, state: State) -> tuple[Shape, ...] | None:  # noqa: ARG002  # part of the interface
-        """The outlines of what matters in a state, seen from above, for figures of the layouts that were tried.
+    def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...] | None:  # noqa: ARG002  # as above
+        """The outlines of what matters in a state, seen from above, what lies on top last.
+
+        Figures of the layouts that were tried are drawn with it, and pictures of a run where there is no `stage`.
 
         Args:
-            instance: An `instance_type`.
-            state: One of its states. What the robot holds need not be shown.
+            instance: As for `make`.
+            options: As for `make`.
+            state: One of the instance's states. The robot, and what it holds, need not be shown.
         """
         return None

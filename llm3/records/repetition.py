@@ -14,7 +14,7 @@ REPLAY = "replay"
 """The backend that answers from a record."""
 
 
-def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
+def repeat(registry: Registry, folder: Path) -> Run:
     """Make a recorded run ready to be solved again, with the replies of its record in place of a model.
 
     What was asked stands in the record: problem, options, method, seed and budget. A limit in seconds is left out,
@@ -24,7 +24,6 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
     Args:
         registry: Where the names are looked up.
         folder: The run's folder.
-        window: Whether to show the world in the domain's window.
 
     Raises:
         LLM3Error: The record is not as documented, or names something that is not there.
@@ -33,7 +32,7 @@ def repeat(registry: Registry, folder: Path, window: bool = False) -> Run:
     domain = registry.domain(recorded.config.domain)
     source = f"{folder / 'run.json'}, instance"
     instance = loads(dumps(recorded.instance), domain.instance_type, source)
-    return assemble(registry, _configuration(recorded, folder), instance, window, source)
+    return assemble(registry, _configuration(recorded, folder), instance, source)
 
 
 def _configuration(recorded: RunFile, folder: Path) -> RunConfig:

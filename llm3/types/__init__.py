@@ -3,7 +3,7 @@
 from llm3.types.actions import Action, ActionSchema, Parameter
 from llm3.types.attempts import Attempt, Outcome, Proposal, Rejected
 from llm3.types.dialogue import Completion, Context, Entity, Feedback, Message, Remark, Request, Sketch
-from llm3.types.drawing import Shape
+from llm3.types.drawing import GREY, Color, Shape, color_of
 from llm3.types.events import (
     ActionTried,
     AttemptEnded,
@@ -19,6 +19,7 @@ from llm3.types.events import (
 )
 from llm3.types.failures import ITSELF, Contact, Failure, FailureKind
 from llm3.types.frozen import FrozenDict
+from llm3.types.moments import Moment, moment_of
 from llm3.types.motion import (
     Event,
     EventKind,
@@ -40,6 +41,7 @@ from llm3.types.trajectory import Trajectory
 from llm3.types.verification import Defect, Verification
 
 __all__ = [
+    "GREY",
     "ITSELF",
     "Action",
     "ActionSchema",
@@ -47,6 +49,7 @@ __all__ = [
     "Attempt",
     "AttemptEnded",
     "CallFailed",
+    "Color",
     "Completion",
     "Contact",
     "Context",
@@ -65,6 +68,7 @@ __all__ = [
     "Held",
     "Mask",
     "Message",
+    "Moment",
     "Motion",
     "MotionProblem",
     "NoMotion",
@@ -96,5 +100,7 @@ __all__ = [
     "Vector",
     "Verification",
     "Waypoints",
+    "color_of",
+    "moment_of",
     "nobody",
 ]

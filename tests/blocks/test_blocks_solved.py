@@ -58,7 +58,7 @@ def test_a_view_from_above_shows_the_blocks_from_the_lowest_to_the_highest(solve
 
     domain = Blocks()
     result, _ = solve(setting="blocks-3", seed=0)
-    shapes = domain.top_view(domain.instance("blocks-3", 0), result.plan[-1].state)
+    shapes = domain.top_view(domain.instance("blocks-3", 0), {}, result.plan[-1].state)
     order = {on.block: on.below for on in domain.instance("blocks-3", 0).goal}
     names = [shape.name for shape in shapes]
     assert sorted(names) == sorted(order)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from llm3.types import Event, EventKind, Held, Motion, Pose, Segment
+from llm3.types import Held, Moment, Pose
 from llm3_bullet.clients import connect
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.robots import panda
 from llm3_bullet.scene import Box
-from llm3_bullet.stage import Camera, Stage
+from llm3_bullet.stage import BulletStage, Camera
 
 RED, CUBE = (0.9, 0.0, 0.0), Box("cube", (0.2, 0.2, 0.2), Pose((0.6, 0.0, 0.1)))
 
@@ -23,15 +25,16 @@ def model():
 
 
 @pytest.fixture
-def waits():
-    return []
+def stage(model):
+    made = BulletStage(connect(), model, [CUBE], {"cube": RED}, Camera(target=(0.5, 0.0, 0.3), distance=1.2))
+    yield made
+    made.close()
 
 
 @pytest.fixture
-def stage(model, waits):
-    made = Stage(connect(), model, {"cube": RED}, Camera(target=(0.6, 0.0, 0.1), distance=1.0), waits.append)
-    yield made
-    made.close()
+def standing(model):
+    """The cube on the ground, the arm at home."""
+    return Moment(tuple(model.home), {"cube": CUBE.pose}, opening=0.08)
 
 
 def redness(picture):
@@ -39,53 +42,40 @@ def redness(picture):
     return int(((red > 100) & (green < 60) & (blue < 60)).sum())
 
 
-def test_a_picture_has_the_size_asked_for_and_shows_the_box_in_its_colour(stage, model):
-    stage.show([CUBE], model.home, None, 0.08)
-    picture = stage.picture(160, 120)
-    assert picture.shape == (120, 160, 3)
+def shown(stage, moment):
+    stage.show(moment)
+    return stage.picture(160, 120)
+
+
+def test_a_picture_has_the_size_asked_for_and_shows_the_box_in_its_colour(stage, standing):
+    picture = shown(stage, standing)
+    assert (picture.shape, picture.dtype) == ((120, 160, 3), np.uint8)
     assert redness(picture) > 300
 
 
-def test_the_same_state_gives_the_same_picture(stage, model):
-    stage.show([CUBE], model.home, None, 0.08)
-    first = stage.picture(80, 60)
-    stage.show([Box("cube", CUBE.size, Pose((0.3, 0.5, 0.1)))], model.home + 0.1, None, 0.0)
-    assert not np.array_equal(stage.picture(80, 60), first)
-    stage.show([CUBE], model.home, None, 0.08)
-    assert np.array_equal(stage.picture(80, 60), first)
+def test_the_same_moment_gives_the_same_picture_whatever_was_shown_before(stage, standing, model):
+    first = shown(stage, standing)
+    elsewhere = Moment(tuple(model.home + 0.1), {"cube": Pose((0.3, 0.5, 0.1))}, opening=0.0)
+    assert not np.array_equal(shown(stage, elsewhere), first)
+    assert np.array_equal(shown(stage, standing), first)
 
 
-def test_a_held_box_moves_with_the_tool_until_it_is_let_go(stage, model):
-    tool = Kinematics(model).tool
-    there, away = model.home, model.home + np.array([0.6, 0, 0, 0, 0, 0, 0])
+def test_what_is_held_is_where_the_hand_is(stage, standing, model):
     grasp = Pose((0.0, 0.0, 0.05))
-    attach = (Event(EventKind.GRIPPER, opening=0.07), Event(EventKind.ATTACH, object="cube", grasp=grasp))
-    stage.show([CUBE], there, None, 0.08)
-    carry = Segment("transit", (tuple(there), tuple(away)), attach)
-    leave = Segment("retreat", (tuple(away), tuple(there)), (Event(EventKind.DETACH, object="cube"),))
-    stage.play(Motion((carry, leave)))
-    picture = stage.picture(160, 120)
-
-    where = tool(away[None])[0] @ as_matrix(grasp)
-    stage.show([Box("cube", CUBE.size, Pose(tuple(where[:3, 3])))], there, None, 0.07)
-    assert abs(redness(picture) - redness(stage.picture(160, 120))) < 0.1 * redness(picture) + 50
+    away = model.home + np.array([0.6, 0, 0, 0, 0, 0, 0])
+    held = Moment(tuple(away), {}, Held("cube", grasp), opening=0.07)
+    where = Kinematics(model).tool(away[None])[0] @ as_matrix(grasp)
+    put = replace(held, held=None, poses={"cube": Pose(tuple(where[:3, 3]))})
+    difference = redness(shown(stage, held)) - redness(shown(stage, put))
+    assert abs(difference) < 0.1 * redness(shown(stage, put)) + 50
 
 
-def test_a_state_with_a_held_box_shows_it_in_the_gripper(stage, model):
-    stage.show([CUBE], model.home, None, 0.08)
-    on_the_ground = stage.picture(160, 120)
-    stage.show([], model.home, Held("cube", Pose((0.0, 0.0, 0.1))), 0.07)
-    assert not np.array_equal(stage.picture(160, 120), on_the_ground)
+def test_fingers_are_open_until_their_opening_is_known(stage, standing):
+    closed, wide = (shown(stage, replace(standing, opening=opening)) for opening in (0.0, 0.08))
+    assert not np.array_equal(closed, wide)
+    assert np.array_equal(shown(stage, replace(standing, opening=None)), wide)
 
 
-def test_a_motion_is_played_frame_by_frame(stage, model, waits):
-    stage.show([CUBE], model.home, None, 0.08)
-    end = tuple(model.home + np.array([0.3, 0, 0, 0, 0, 0, 0]))
-    stage.play(Motion((Segment("transit", (tuple(model.home), end)),)), step=0.03, frame=0.01)
-    assert waits == [0.01] * 10
-
-
-def test_closing_waits_once(stage, waits):
-    stage.close(last_look=2.0)
-    stage.close(last_look=2.0)
-    assert waits == [2.0]
+def test_a_closed_stage_can_be_closed_again(stage):
+    stage.close()
+    stage.close()

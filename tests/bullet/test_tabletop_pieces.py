@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from llm3.types import ITSELF, Entity, Pose
+from llm3.types import GREY, ITSELF, Entity, Pose, color_of
 from llm3_bullet.tabletop.box_spec import BoxShape, BoxSpec, upright
+from llm3_bullet.tabletop.looks import look
 from llm3_bullet.tabletop.rectangles import Rectangle
 from llm3_bullet.tabletop.stance import shadow
 from llm3_bullet.tabletop.table import Surface, support_height, table
-from llm3_bullet.tabletop.window import GREY, color_of
 from llm3_bullet.tabletop.wording import box_entity
 
 LOW, HIGH = Surface(Rectangle((0.5, 0.0), (0.2, 0.2)), 0.01), Surface(Rectangle((0.6, 0.0), (0.2, 0.2)), 0.05)
@@ -75,5 +75,6 @@ def test_a_box_is_told_with_whatever_else_is_known_of_it():
 
 
 def test_a_colour_goes_by_the_first_word_of_a_name():
-    assert color_of("red_block") == color_of("red_box") != GREY
-    assert color_of("puce_box") == GREY
+    assert look("red_block") == look("red_box") == color_of("red") != GREY
+    assert look("puce_box") == GREY
+    assert look("basket_wall_front") == look("basket") != GREY

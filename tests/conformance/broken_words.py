@@ -254,7 +254,7 @@ BESIDES: dict[str, Planted] = {
         "its generator alone",
     ),
     "view of twins": Planted(
-        a_yard(top_view=lambda self, instance, state: (Shape("wall", ((0, 0), (1, 0), (1, 1))),) * 2),
+        a_yard(top_view=lambda self, instance, options, state: (Shape("wall", ((0, 0), (1, 0), (1, 1))),) * 2),
         "the view from above is drawn alike",
         "top_view draws two things of one name: wall, wall.",
         "by the names",

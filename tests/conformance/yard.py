@@ -179,7 +179,7 @@ class Yards(Domain):
     def verifier(self, instance, options):
         return YardVerifier(Yard(instance))
 
-    def top_view(self, instance, state):
+    def top_view(self, instance, options, state):
         return (Shape("wall", ((0.95, 0.0), (1.05, 0.0), (1.05, 1.0)), fixed=True),)
 
 

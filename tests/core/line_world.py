@@ -252,11 +252,6 @@ class FullLineDomain(LineDomain):
     def stand_in(self):
         return lambda context, rng: reply(go(FINISH))
 
-    def make_in_window(self, instance, options):
-        env = self.make(instance, options)
-        env.window = True
-        return env
-
 
 class LinePlugin:
     """Registers the world, bare and full, and its planner and words."""

@@ -137,13 +137,6 @@ def test_a_world_is_closed_also_after_an_error():
     assert problem.env.closed == 1
 
 
-def test_a_window_needs_a_domain_that_has_one():
-    assert open_problem(FullLineDomain(), LineInstance(0.0), {}, window=True).env.window
-    assert complaint(open_problem, LineDomain(), LineInstance(0.0), {}, window=True, error=MissingCapability) == (
-        "domain 'line' has no window, which --gui needs."
-    )
-
-
 class NoRoom(FullLineDomain):
     name = "no-room"
 
@@ -162,7 +155,6 @@ def test_where_an_instance_comes_from_is_said_first_if_no_world_can_be_made_of_i
     registry.register(Plugin(), "no-room")
     one, asked = LineInstance(0.0), config(domain="no-room")
     assert complaint(open_problem, NoRoom(), one, {}, source=source, error=InstanceError) == sentence
-    assert complaint(open_problem, NoRoom(), one, {}, window=True, source=source, error=InstanceError) == sentence
     assert complaint(assemble, registry, asked, one, source=source, error=InstanceError) == sentence
     assert complaint(prepare(registry, asked, one, source).open, error=InstanceError) == sentence
 
@@ -423,13 +415,13 @@ def test_a_run_gives_its_world_away_and_the_next_one_is_made_of_it():
 
 
 @pytest.mark.parametrize(
-    ("domain", "changes", "window"),
-    [(FullLineDomain, {}, False), (Thrifty, {"options": {"ground": "wet"}}, False), (Thrifty, {}, True)],
-    ids=["no such capability", "not for this one", "not into a window"],
+    ("domain", "changes"),
+    [(FullLineDomain, {}), (Thrifty, {"options": {"ground": "wet"}})],
+    ids=["no such capability", "not for this one"],
 )
-def test_a_spare_world_that_is_of_no_use_is_closed_and_a_new_one_made(domain, changes, window):
+def test_a_spare_world_that_is_of_no_use_is_closed_and_a_new_one_made(domain, changes):
     spare = Line()
-    with prepare(registry_with(domain), config(**changes)).open(window, spare) as run:
+    with prepare(registry_with(domain), config(**changes)).open(spare) as run:
         assert spare.closed == 1
         assert type(run.problem.env) is Line
         assert run.solve().solved

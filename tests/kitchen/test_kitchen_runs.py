@@ -5,19 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from kitchen_world import BREAD, POTATO, SINK, wash
+from kitchen_world import BREAD, POTATO
 
 from llm3.budget import Budget
 from llm3.interfaces import PlannerSettings
 from llm3.jsonio import dumps
 from llm3.search import search
-from llm3.types import Motion
 from llm3_birrt.planner import BiRRT
-from llm3_bullet.clients import connect
-from llm3_bullet.tabletop import window
-from llm3_bullet.tabletop.window import WindowEnv
 from llm3_kitchen.domain import Kitchen
 from llm3_kitchen.instance import KitchenInstance
+from llm3_kitchen.looks import COLORS
 from llm3_kitchen.settings import CLUTTER, FOODS, PLACES
 
 PANDA, IIWA = {"robot": "panda"}, {"robot": "iiwa"}
@@ -67,16 +64,8 @@ def test_the_same_seed_gives_the_same_plan(solve):
     assert dumps(solve(seed=3)[1]) == dumps(solve(seed=3)[1])
 
 
-def test_a_chore_can_be_looked_at(monkeypatch):
-    """Nothing moves in the window, and what is there has its colours."""
-    monkeypatch.setattr(window, "LAST_LOOK", 0.0)
-    potato = replace(POTATO, position=SINK)
-    env = Kitchen().make(KitchenInstance(PLACES, (potato,)), PANDA)
-    shown = WindowEnv(env, connect(), lambda seconds: None)
-    state = shown.reset()
-    assert shown.apply(state, wash("potato"), Motion()) == env.apply(state, wash("potato"), Motion())
-    assert {*FOODS, *CLUTTER, "stove"} <= set(env.colors)
-    shown.close()
+def test_what_is_there_has_its_colours_in_pictures():
+    assert {*FOODS, *CLUTTER, "stove"} <= set(COLORS)
 
 
 def test_a_world_made_out_of_another_answers_like_a_new_one():

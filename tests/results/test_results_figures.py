@@ -20,7 +20,7 @@ from llm3_corridor import Corridor
 
 class Viewed(Corridor):
     name = "viewed"
-    def top_view(self, instance, state):
+    def top_view(self, instance, options, state):
         x = state.configuration[0]
         robot = Shape("robot", ((x, 0), (x + 0.1, 0), (x, 0.1)))
         return Shape("corridor", ((0, 0), (5, 0), (5, 1), (0, 1)), fixed=True), robot

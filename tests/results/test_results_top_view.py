@@ -28,7 +28,7 @@ def test_box_packing_shows_the_basket_and_the_boxes_where_they_start():
     for setting in SETTINGS:
         instance = domain.instance(setting, 3)
         state = start(instance)
-        basket, *boxes = domain.top_view(instance, state)
+        basket, *boxes = domain.top_view(instance, {}, state)
         assert (basket.name, basket.fixed) == ("basket", True)
         assert np.allclose(basket.corners, instance.basket.area.corners)
         for shape, box in zip(boxes, instance.boxes, strict=True):
@@ -45,7 +45,7 @@ def test_a_held_box_is_not_shown():
     state = start(instance)
     first, *others = (box.name for box in instance.boxes)
     held = State({name: pose for name, pose in state.poses.items() if name != first})
-    assert [shape.name for shape in domain.top_view(instance, held)] == ["basket", *others]
+    assert [shape.name for shape in domain.top_view(instance, {}, held)] == ["basket", *others]
 
 
 @pytest.mark.pybullet
@@ -59,7 +59,7 @@ def test_of_a_box_that_leans_every_corner_lies_in_the_outline(roll, pitch, yaw):
     instance = domain.instance("hard-small", 0)
     box = instance.boxes[0]
     pose = Pose((0.4, 0.1, 0.2), tuple(Rotation.from_euler("xyz", (roll, pitch, yaw)).as_quat()))
-    outline = np.array(domain.top_view(instance, State({box.name: pose}))[1].corners)
+    outline = np.array(domain.top_view(instance, {}, State({box.name: pose}))[1].corners)
     half = np.array(box.size) / 2
     signs = np.array(np.meshgrid(*[(-1, 1)] * 3)).reshape(3, -1).T
     points = (signs * half) @ Rotation.from_quat(pose.orientation).as_matrix().T[:, :2] + pose.position[:2]

@@ -277,13 +277,17 @@ def test_it_is_drawn_as_it_stands():
         disc("red_disc", 0.5, 0.4), box("blue_box", 0.8, 0.2, theta=pi / 2), walls=(wall("post", 0.7, 0.7, 0.1, 0.1),)
     )
     env = TabletopEnv(instance, 0.03)
-    shapes = {shape.name: shape for shape in DOMAIN.top_view(instance, env.reset())}
+    options = {"robot_radius": "0.03"}
+    shapes = {shape.name: shape for shape in DOMAIN.top_view(instance, options, env.reset())}
+    assert [name for name, shape in shapes.items() if shape.robot] == ["robot"]
+    assert np.allclose(np.linalg.norm(np.subtract(shapes["robot"].corners, instance.robot), axis=1), 0.03)
     assert {name for name, shape in shapes.items() if shape.fixed} == {"room", "tray", "post"}
     corners = np.array(shapes["blue_box"].corners)
     assert np.allclose(np.ptp(corners, axis=0), (0.06, 0.08), atol=1e-4)
     assert np.allclose(np.linalg.norm(np.subtract(shapes["red_disc"].corners, (0.5, 0.4)), axis=1), 0.04)
-    held = after(env, pick("red_disc"))
-    assert "red_disc" not in [shape.name for shape in DOMAIN.top_view(instance, held)]
+    held = {shape.name: shape for shape in DOMAIN.top_view(instance, options, after(env, pick("red_disc")))}
+    between = np.subtract(np.mean(held["red_disc"].corners, axis=0), np.mean(held["robot"].corners, axis=0))
+    assert np.linalg.norm(between) == pytest.approx(0.07, abs=2e-3)  # it is in the robot's hand, beside it
 
 
 def test_apply_tells_a_motion_that_takes_hold_of_nothing():

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from llm3.errors import PluginError
-from llm3.guarded import guarded
-from llm3.interfaces import Domain
+from llm3.assembly.choices import settle_options
 from llm3.jsonio import dumps, loads
+from llm3.playback import seen_from_above
 from llm3.records import read_events, read_run
 from llm3.registry import Registry
 from llm3.types import ActionTried, AttemptEnded, RunStarted, Shape, State
@@ -41,10 +39,15 @@ def tried_layouts(registry: Registry, folder: Path) -> Tried | None:
     domain = registry.domain(file.config.domain)
     instance = loads(dumps(file.instance), domain.instance_type, f"{folder / 'run.json'}, instance")
     start, ends = _states(folder)
-    first = _view(domain, instance, start)
+    options = settle_options(domain, file.options)
+
+    def view(state: State) -> Shapes | None:
+        return seen_from_above(domain, instance, options, state)
+
+    first = view(start)
     if first is None:
         return None
-    attempts = tuple(_moved(first, _view(domain, instance, state) or ()) for state in ends)
+    attempts = tuple(_moved(first, view(state) or ()) for state in ends)
     return Tried(first, attempts, file.status == "solved")
 
 
@@ -64,17 +67,10 @@ def _states(folder: Path) -> tuple[State, list[State]]:
     return start, ends
 
 
-def _view(domain: Domain, instance: Any, state: State) -> Shapes | None:
-    shapes = guarded(domain.top_view, (tuple, type(None)), instance, state)
-    for shape in shapes or ():
-        if not isinstance(shape, Shape):
-            raise PluginError(f"{type(domain).__name__}.top_view must answer a tuple of Shape, and {shape!r} is none.")
-    return shapes
-
-
 def _moved(start: Shapes, shapes: Iterable[Shape]) -> Shapes:
     before = {shape.name: shape for shape in start}
-    return tuple(s for s in shapes if s.name not in before or _far(_extent(s), _extent(before[s.name])))
+    things = (shape for shape in shapes if not shape.robot)
+    return tuple(s for s in things if s.name not in before or _far(_extent(s), _extent(before[s.name])))
 
 
 def _extent(shape: Shape) -> tuple[float, ...]:

@@ -65,7 +65,7 @@ def the_view_from_above_is_drawn_alike(world: World) -> Iterator[Fault]:
     """top_view answers shapes of different names, the same for the same state."""
     states = [world.start, *(trial.transition.state for trial in world.applied[:6] if trial.transition)]
     for state in states:
-        shapes = world.domain.top_view(world.instance, state)
+        shapes = world.domain.top_view(world.instance, world.options, state)
         if shapes is None:
             return
         if not isinstance(shapes, tuple) or not all(isinstance(shape, Shape) for shape in shapes):
@@ -74,7 +74,7 @@ def the_view_from_above_is_drawn_alike(world: World) -> Iterator[Fault]:
         names = [shape.name for shape in shapes]
         if len(set(names)) < len(names):
             yield Fault(f"top_view draws two things of one name: {', '.join(names)}.", "Figures go by the names.")
-        if shapes != world.domain.top_view(world.instance, state):
+        if shapes != world.domain.top_view(world.instance, world.options, state):
             yield Fault("top_view draws one state in two ways.", "It must look at nothing but its arguments.")
 
 

@@ -1,4 +1,4 @@
-"""A domain of worlds around a tabletop: any robot, with or without a window, each world made out of the last one."""
+"""A domain of worlds around a tabletop: any robot, a stage to show it on, each world made out of the last one."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from abc import abstractmethod
 from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, Any
 
-from llm3.interfaces import Domain, Env, Option, Options
+from llm3.interfaces import Domain, Env, Option, Options, Stage
 
 if TYPE_CHECKING:  # a domain is cheap to make, and what a world needs is not cheap to import
     from llm3_bullet.tabletop.env import TabletopEnv
@@ -47,23 +47,28 @@ class TabletopDomain(Domain):
             stack.pop_all()  # it is the Env's to close now
             return env
 
-    def make_in_window(self, instance: Any, options: Options) -> Env | None:
-        """A PyBullet world, with a second one in a window that plays what happens."""
+    def stage(self, instance: Any, options: Options, window: bool = False) -> Stage | None:
+        """The robot, the furniture and the boxes in a PyBullet world of their own."""
         from llm3_bullet.clients import connect
+        from llm3_bullet.model import RobotModel
         from llm3_bullet.robots import find_robot
-        from llm3_bullet.tabletop.window import WindowEnv
+        from llm3_bullet.stage import BulletStage
+        from llm3_bullet.tabletop.looks import look, trimmed
         from llm3_bullet.workcell import Workcell
 
-        robot = find_robot(options["robot"])
         with ExitStack() as stack:
-            client = stack.enter_context(connect(gui=True))
-            cell = stack.enter_context(closing(Workcell(robot)))
-            env = WindowEnv(self.env(instance, cell, options), client)
-            stack.pop_all()
-            return env
+            client = stack.enter_context(connect(gui=window))
+            robot = find_robot(options["robot"])
+            with closing(Workcell(robot)) as cell:
+                env = self.env(instance, cell, options)
+                boxes = (*map(trimmed, env.scene(env.reset()).boxes), *env.marks)
+            colors = {box.name: env.colors.get(box.name) or look(box.name) for box in boxes}
+            stage = BulletStage(client, RobotModel(robot), boxes, colors, env.camera)
+            stack.pop_all()  # it is the stage's to close now
+            return stage
 
     def remake(self, env: Env, instance: Any, options: Options) -> Env | None:
-        """A world around the same robot, whose simulators go on; None for another robot, or out of a window."""
+        """A world around the same robot, whose simulators go on; None for another robot."""
         from llm3_bullet.robots import find_robot
         from llm3_bullet.tabletop.env import TabletopEnv
 

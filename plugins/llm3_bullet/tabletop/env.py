@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from llm3.interfaces import Env, Joint
-from llm3.types import Action, FrozenDict, Motion, State, Transition
-from llm3_bullet.scene import Scene
-from llm3_bullet.stage import Color
+from llm3.types import Action, Color, FrozenDict, Motion, State, Transition
+from llm3_bullet.scene import Box, Scene
+from llm3_bullet.stage import Camera
+from llm3_bullet.tabletop.looks import CAMERA
 from llm3_bullet.tabletop.tabletop import Tabletop
 
 
@@ -18,7 +19,11 @@ class TabletopEnv(Env):
     """
 
     colors: Mapping[str, Color] = FrozenDict()
-    """Of things in the window, by name; others have the colour that their name begins with, or are grey."""
+    """Of things in pictures, by name; others have the colour that their name begins with, or are grey."""
+    camera: Camera = CAMERA
+    """Where pictures are taken from."""
+    marks: tuple[Box, ...] = ()
+    """What is marked on the table, and only there to be seen."""
 
     def __init__(self, tabletop: Tabletop) -> None:
         """Bind a tabletop; the Env owns its workcell from now on."""

@@ -1,0 +1,126 @@
+"""Make a film or a picture of a plan, or of what was carried out of an attempt."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Iterator, Sequence
+from functools import partial
+from math import nan
+from pathlib import Path
+from typing import TextIO
+
+from llm3.cli.problem_arguments import path, whole
+from llm3.cli.text import emit
+from llm3.errors import OutputExists
+from llm3.interfaces import Picture, Stage
+from llm3.playback import Frame, evenly, frames, open_stage
+from llm3.playback.film import check_kind, write_film, write_picture
+from llm3.records import Played, read_played
+from llm3.registry import Registry
+from llm3.types import Moment, moment_of
+
+RATE = 60.0
+"""How many moments a second are looked at for a single one."""
+SIDES = range(16, 4001, 2)
+"""What a side of a picture may be, in pixels: even numbers, as films need."""
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """Add the command's arguments."""
+    add = parser.add_argument
+    add("plan", type=path, metavar="PLAN", help="a plan.json, or the folder of a run")
+    add(
+        "--attempt",
+        type=partial(whole, least=1, most=10**6),
+        metavar="N",
+        help="what was carried out of an attempt of the run, instead of the plan",
+    )
+    add("--out", type=path, metavar="FILE", help="a .gif, .mp4 or .png (default: a .gif here, with the folder's name)")
+    add("--force", action="store_true", help="overwrite FILE")
+    add("--size", type=_size, metavar="WxH", default=(480, 360), help="in pixels (default: 480x360)")
+    add("--rate", type=_rate, metavar="N", default=10.0, help="pictures a second (default: 10)")
+    add("--speed", type=_factor, metavar="X", default=2.0, help="how many times as fast as the robot (default: 2)")
+    add("--at", type=_seconds, metavar="S", help="of a .png: seconds from the start of the motion (default: its end)")
+    add("--quiet", action="store_true", help="no progress on stderr")
+
+
+def run(arguments: Namespace, out: TextIO) -> int:
+    """Run the command."""
+    file = arguments.out or Path(f"{_name(arguments.plan)}.gif")
+    check_kind(file)
+    if file.exists() and not arguments.force:
+        raise OutputExists(f"'{file}' exists: give another --out, or --force.")
+    played = read_played(Registry.discover(), arguments.plan, arguments.attempt)
+    stage = open_stage(played.domain, played.instance, played.options, played.start, "llm3 render")
+    try:
+        if file.suffix.lower() == ".png":
+            stage.show(_at(played, arguments.at))
+            write_picture(stage.picture(*arguments.size), file)
+        else:
+            rate = arguments.rate / arguments.speed  # of the robot's own time
+            shown = tuple(evenly(frames(played.start, played.steps, rate), rate))
+            write_film(_pictures(stage, shown, arguments), file, arguments.rate)
+    finally:
+        stage.close()
+    emit(f"{file}\n", out)
+    return 0
+
+
+def _pictures(stage: Stage, shown: Sequence[Frame], arguments: Namespace) -> Iterator[Picture]:
+    from llm3.cli.render_view import RenderView  # rich takes a while to import
+
+    with RenderView(len(shown), arguments.quiet) as view:
+        for frame in shown:
+            stage.show(frame.moment)
+            yield stage.picture(*arguments.size)
+            view.advance()
+
+
+def _at(played: Played, seconds: float | None) -> Moment:
+    """The last moment that is not later than this."""
+    moment = moment_of(played.start)
+    for frame in frames(played.start, played.steps, RATE):
+        if seconds is not None and frame.moment.time > seconds:
+            break
+        moment = frame.moment
+    return moment
+
+
+def _name(plan: Path) -> str:
+    """The name of a run's folder, or of a plan's file."""
+    whole = plan.resolve()
+    if whole.name == "plan.json":
+        whole = whole.parent
+    return whole.stem if whole.is_file() else whole.name
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, cross, height = text.partition("x")
+    sides = [int(side) if side.isascii() and side.isdigit() and len(side) <= 4 else 0 for side in (width, height)]
+    if not cross or not all(side in SIDES for side in sides):
+        raise ArgumentTypeError(
+            f"expected two even numbers from {SIDES[0]} to {SIDES[-1]}, such as 480x360, not {text!r}"
+        )
+    return sides[0], sides[1]
+
+
+def _rate(text: str) -> float:
+    return _number(text, 1.0, 100.0)
+
+
+def _factor(text: str) -> float:
+    return _number(text, 0.1, 100.0)
+
+
+def _seconds(text: str) -> float:
+    return _number(text, 0.0, 1e6)
+
+
+def _number(text: str, least: float, most: float) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = nan
+    if not least <= value <= most:
+        raise ArgumentTypeError(f"expected a number from {least:g} to {most:g}, not {text!r}")
+    return value

@@ -1,0 +1,45 @@
+"""Opens the stage of a domain."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from llm3.errors import MissingCapability
+from llm3.guarded import guarded
+from llm3.interfaces import Domain, Options, Stage
+from llm3.playback.from_above import FromAbove, seen_from_above
+from llm3.types import State
+
+
+def open_window(domain: Domain, instance: Any, options: Options) -> Stage:
+    """A window on the screen.
+
+    Raises:
+        MissingCapability: The domain has none.
+        LLM3Error: It cannot be opened, as there is no screen.
+    """
+    stage = guarded(domain.stage, (Stage, type(None)), instance, options, True)
+    if stage is None:
+        raise MissingCapability(domain.name, "window", "--gui")
+    return stage
+
+
+def open_stage(domain: Domain, instance: Any, options: Options, start: State, needed_for: str) -> Stage:
+    """Where pictures are made: the domain's own stage, or a drawing of what it shows from above.
+
+    Args:
+        domain: What the instance is of.
+        instance: The problem.
+        options: A value for every one of the domain's `options`.
+        start: A state of the instance.
+        needed_for: Who needs it, for the error.
+
+    Raises:
+        MissingCapability: The domain has neither.
+    """
+    stage = guarded(domain.stage, (Stage, type(None)), instance, options, False)
+    if stage is not None:
+        return stage
+    if seen_from_above(domain, instance, options, start) is None:
+        raise MissingCapability(domain.name, "stage and no top view", needed_for)
+    return FromAbove(domain, instance, options)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from llm3.types import Color, Pose
+from llm3.types import Camera, Color, Pose
 from llm3_bullet.scene import Box
-from llm3_bullet.stage import Camera
 from llm3_kitchen.instance import PlaceSpec
 
 CAMERA = Camera(target=(0.24, 0.0, 0.17), distance=1.75, yaw=90.0, pitch=-48.0)

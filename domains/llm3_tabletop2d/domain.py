@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from llm3.errors import UsageError
-from llm3.interfaces import Domain, Env, Option, Options, PlanVerifier, Regions, StandIn
+from llm3.interfaces import Domain, Env, Option, Options, PlanVerifier, Regions, Scenery, StandIn
 from llm3.types import Shape, Sketch, State
 from llm3_tabletop2d.actions import MAX_ACCELERATION, MAX_VELOCITY, skeleton
 from llm3_tabletop2d.instance import TabletopInstance
@@ -54,6 +54,12 @@ class Tabletop2D(Domain):
         from llm3_tabletop2d.verification import TabletopVerifier
 
         return TabletopVerifier(instance, _radius(options["robot_radius"]), MAX_VELOCITY, MAX_ACCELERATION)
+
+    def scenery(self, instance: Any, options: Options) -> Scenery:
+        """The same as from above, with a height."""
+        from llm3_tabletop2d.scenery import TabletopScenery
+
+        return TabletopScenery(instance, _radius(options["robot_radius"]))
 
     def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...]:
         """The room, the walls, the regions, the objects and the robot."""

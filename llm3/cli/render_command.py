@@ -1,4 +1,4 @@
-"""Make a film or a picture of a plan, or of what was carried out of an attempt."""
+"""Make a film, a picture or a page to walk around in, of a plan or of what was carried out of an attempt."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ from typing import TextIO
 
 from llm3.cli.problem_arguments import path, whole
 from llm3.cli.text import emit
-from llm3.errors import OutputExists
+from llm3.errors import LLM3Error, OutputExists
 from llm3.interfaces import Picture, Stage
-from llm3.playback import Frame, evenly, frames, open_stage
+from llm3.playback import Frame, evenly, frames, open_scenery, open_stage, replay_page
 from llm3.playback.film import check_kind, write_film, write_picture
 from llm3.records import Played, read_played
+from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
 from llm3.types import Moment, moment_of
 
+PAGE = ".html"
+SMOOTH = 25.0
+"""How many moments a second a page shows."""
 RATE = 60.0
 """How many moments a second are looked at for a single one."""
 SIDES = range(16, 4001, 2)
@@ -35,7 +39,12 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         help="what was carried out of an attempt of the run, instead of the plan",
     )
-    add("--out", type=path, metavar="FILE", help="a .gif, .mp4 or .png (default: a .gif here, with the folder's name)")
+    add(
+        "--out",
+        type=path,
+        metavar="FILE",
+        help="a .gif, .mp4, .png or .html (default: a .gif here, with the folder's name)",
+    )
     add("--force", action="store_true", help="overwrite FILE")
     add("--size", type=_size, metavar="WxH", default=(480, 360), help="in pixels (default: 480x360)")
     add("--rate", type=_rate, metavar="N", default=10.0, help="pictures a second (default: 10)")
@@ -47,10 +56,15 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     file = arguments.out or Path(f"{_name(arguments.plan)}.gif")
-    check_kind(file)
+    if file.suffix.lower() != PAGE:
+        check_kind(file)
     if file.exists() and not arguments.force:
         raise OutputExists(f"'{file}' exists: give another --out, or --force.")
     played = read_played(Registry.discover(), arguments.plan, arguments.attempt)
+    if file.suffix.lower() == PAGE:
+        _write_page(played, file)
+        emit(f"{file}\n", out)
+        return 0
     stage = open_stage(played.domain, played.instance, played.options, played.start, "llm3 render")
     try:
         if file.suffix.lower() == ".png":
@@ -64,6 +78,15 @@ def run(arguments: Namespace, out: TextIO) -> int:
         stage.close()
     emit(f"{file}\n", out)
     return 0
+
+
+def _write_page(played: Played, file: Path) -> None:
+    scenery = open_scenery(played.domain, played.instance, played.options, "a page")
+    page = replay_page(scenery, frames(played.start, played.steps, SMOOTH))
+    try:
+        write_whole(file, page)
+    except OSError as error:
+        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error
 
 
 def _pictures(stage: Stage, shown: Sequence[Frame], arguments: Namespace) -> Iterator[Picture]:

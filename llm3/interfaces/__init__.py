@@ -8,6 +8,7 @@ from llm3.interfaces.free_space import FreeSpace
 from llm3.interfaces.model_source import ModelSource
 from llm3.interfaces.planner import MotionPlanner, PlannerSettings
 from llm3.interfaces.sampling import Ranges, drawn, sampling_ranges
+from llm3.interfaces.scenery import Frame, Scenery
 from llm3.interfaces.stage import Picture, Stage
 from llm3.interfaces.strategy import Strategy
 from llm3.interfaces.timing import TrajectoryTimer
@@ -18,6 +19,7 @@ __all__ = [
     "Domain",
     "Env",
     "FeedbackSynthesizer",
+    "Frame",
     "FreeSpace",
     "Joint",
     "LLMBackend",
@@ -30,6 +32,7 @@ __all__ = [
     "PlannerSettings",
     "Ranges",
     "Regions",
+    "Scenery",
     "Stage",
     "StandIn",
     "Strategy",

@@ -9,6 +9,7 @@ from typing import Any
 
 from llm3.interfaces.backend import Regions, StandIn
 from llm3.interfaces.env import Env
+from llm3.interfaces.scenery import Scenery
 from llm3.interfaces.stage import Stage
 from llm3.interfaces.verifier import PlanVerifier
 from llm3.types import Shape, Sketch, State
@@ -94,6 +95,15 @@ class Domain(ABC):
             instance: As for `make`.
             options: As for `make`.
             window: Whether it is to be a window on a screen; None if there is no such window.
+        """
+        return None
+
+    def scenery(self, instance: Any, options: Options) -> Scenery | None:  # noqa: ARG002  # as above
+        """What problems of this instance look like in three dimensions: for replays, and for the drawings of reports.
+
+        Args:
+            instance: As for `make`.
+            options: As for `make`.
         """
         return None
 

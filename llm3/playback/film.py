@@ -27,7 +27,7 @@ def check_kind(file: Path) -> None:
         MissingDependency: What writes it is not installed.
     """
     if file.suffix.lower() not in KINDS:
-        raise UsageError(f"'{file}' must end in {', '.join(KINDS[:-1])} or {KINDS[-1]}: that decides what is written.")
+        raise UsageError(f"'{file}' must end in {', '.join(KINDS)} or .html: that decides what is written.")
     if find_spec("PIL") is None:
         raise MissingDependency("pictures need Pillow, which is not installed: pip install 'llm3[viz]'.")
     if file.suffix.lower() == ".mp4" and not shutil.which("ffmpeg"):

@@ -6,7 +6,7 @@ from typing import Any
 
 from llm3.errors import MissingCapability
 from llm3.guarded import guarded
-from llm3.interfaces import Domain, Options, Stage
+from llm3.interfaces import Domain, Options, Scenery, Stage
 from llm3.playback.from_above import FromAbove, seen_from_above
 from llm3.types import State
 
@@ -22,6 +22,18 @@ def open_window(domain: Domain, instance: Any, options: Options) -> Stage:
     if stage is None:
         raise MissingCapability(domain.name, "window", "--gui")
     return stage
+
+
+def open_scenery(domain: Domain, instance: Any, options: Options, needed_for: str) -> Scenery:
+    """What the domain looks like in three dimensions.
+
+    Raises:
+        MissingCapability: The domain does not tell.
+    """
+    scenery = guarded(domain.scenery, (Scenery, type(None)), instance, options)
+    if scenery is None:
+        raise MissingCapability(domain.name, "scenery", needed_for)
+    return scenery
 
 
 def open_stage(domain: Domain, instance: Any, options: Options, start: State, needed_for: str) -> Stage:

@@ -2,8 +2,9 @@
 
 from llm3.types.actions import Action, ActionSchema, Parameter
 from llm3.types.attempts import Attempt, Outcome, Proposal, Rejected
+from llm3.types.bodies import Body, Surface, box_surface, prism_surface
 from llm3.types.dialogue import Completion, Context, Entity, Feedback, Message, Remark, Request, Sketch
-from llm3.types.drawing import GREY, Color, Shape, color_of
+from llm3.types.drawing import GREY, Camera, Color, Shape, color_of
 from llm3.types.events import (
     ActionTried,
     AttemptEnded,
@@ -48,7 +49,9 @@ __all__ = [
     "ActionTried",
     "Attempt",
     "AttemptEnded",
+    "Body",
     "CallFailed",
+    "Camera",
     "Color",
     "Completion",
     "Contact",
@@ -95,12 +98,15 @@ __all__ = [
     "State",
     "Stats",
     "Stop",
+    "Surface",
     "Trajectory",
     "Transition",
     "Vector",
     "Verification",
     "Waypoints",
+    "box_surface",
     "color_of",
     "moment_of",
     "nobody",
+    "prism_surface",
 ]

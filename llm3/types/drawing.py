@@ -37,6 +37,19 @@ def color_of(name: str) -> Color:
 
 
 @dataclass(frozen=True)
+class Camera:
+    """Where one looks from."""
+
+    target: tuple[float, float, float] = (0.5, 0.0, 0.1)
+    """What is in the middle, in metres."""
+    distance: float = 1.5
+    yaw: float = 55.0
+    """Degrees about the vertical."""
+    pitch: float = -35.0
+    """Degrees; negative looks down."""
+
+
+@dataclass(frozen=True)
 class Shape:
     """The outline of a thing, seen from above."""
 

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from llm3.interfaces import Picture, Stage
-from llm3.types import GREY, Color, Moment
+from llm3.types import GREY, Camera, Color, Moment
 from llm3_bullet.clients import BulletClient, quiet
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
 from llm3_bullet.mounting import urdf_file
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.scene import Box
-
-
-@dataclass(frozen=True)
-class Camera:
-    """Where one looks from."""
-
-    target: tuple[float, float, float] = (0.5, 0.0, 0.1)
-    """What is in the middle, in metres."""
-    distance: float = 1.5
-    yaw: float = 55.0
-    """Degrees about the vertical."""
-    pitch: float = -35.0
-    """Degrees; negative looks down."""
 
 
 class BulletStage(Stage):
@@ -40,7 +26,7 @@ class BulletStage(Stage):
         model: RobotModel,
         boxes: Iterable[Box],
         colors: Mapping[str, Color],
-        camera: Camera = Camera(),
+        camera: Camera,
     ) -> None:
         """Set the stage.
 

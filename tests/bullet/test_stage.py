@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from llm3.types import Held, Moment, Pose
+from llm3.types import Camera, Held, Moment, Pose
 from llm3_bullet.clients import connect
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.robots import panda
 from llm3_bullet.scene import Box
-from llm3_bullet.stage import BulletStage, Camera
+from llm3_bullet.stage import BulletStage
 
 RED, CUBE = (0.9, 0.0, 0.0), Box("cube", (0.2, 0.2, 0.2), Pose((0.6, 0.0, 0.1)))
 

@@ -6,10 +6,12 @@ from abc import abstractmethod
 from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, Any
 
-from llm3.interfaces import Domain, Env, Option, Options, Stage
+from llm3.interfaces import Domain, Env, Option, Options, Scenery, Stage
 
 if TYPE_CHECKING:  # a domain is cheap to make, and what a world needs is not cheap to import
+    from llm3_bullet.robot import RobotDescription
     from llm3_bullet.tabletop.env import TabletopEnv
+    from llm3_bullet.tabletop.looks import Seen
     from llm3_bullet.workcell import Workcell
 
 ROBOT = Option("robot", "panda", "panda, iiwa, or a .json file that describes another one")
@@ -53,19 +55,31 @@ class TabletopDomain(Domain):
         from llm3_bullet.model import RobotModel
         from llm3_bullet.robots import find_robot
         from llm3_bullet.stage import BulletStage
-        from llm3_bullet.tabletop.looks import look, trimmed
-        from llm3_bullet.workcell import Workcell
 
         with ExitStack() as stack:
             client = stack.enter_context(connect(gui=window))
             robot = find_robot(options["robot"])
-            with closing(Workcell(robot)) as cell:
-                env = self.env(instance, cell, options)
-                boxes = (*map(trimmed, env.scene(env.reset()).boxes), *env.marks)
-            colors = {box.name: env.colors.get(box.name) or look(box.name) for box in boxes}
-            stage = BulletStage(client, RobotModel(robot), boxes, colors, env.camera)
+            seen = self._seen(robot, instance, options)
+            stage = BulletStage(client, RobotModel(robot), seen.boxes, seen.colors, seen.camera)
             stack.pop_all()  # it is the stage's to close now
             return stage
+
+    def scenery(self, instance: Any, options: Options) -> Scenery | None:
+        """The robot's links, the furniture and the boxes."""
+        from llm3_bullet.model import RobotModel
+        from llm3_bullet.robots import find_robot
+        from llm3_bullet.scenery import BulletScenery
+
+        robot = find_robot(options["robot"])
+        seen = self._seen(robot, instance, options)
+        return BulletScenery(RobotModel(robot), seen.boxes, seen.colors, seen.camera)
+
+    def _seen(self, robot: RobotDescription, instance: Any, options: Options) -> Seen:
+        from llm3_bullet.tabletop.looks import seen
+        from llm3_bullet.workcell import Workcell
+
+        with closing(Workcell(robot)) as cell:
+            return seen(self.env(instance, cell, options))
 
     def remake(self, env: Env, instance: Any, options: Options) -> Env | None:
         """A world around the same robot, whose simulators go on; None for another robot."""

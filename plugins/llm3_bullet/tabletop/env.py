@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from llm3.interfaces import Env, Joint
-from llm3.types import Action, Color, FrozenDict, Motion, State, Transition
+from llm3.types import Action, Camera, Color, FrozenDict, Motion, State, Transition
 from llm3_bullet.scene import Box, Scene
-from llm3_bullet.stage import Camera
 from llm3_bullet.tabletop.looks import CAMERA
 from llm3_bullet.tabletop.tabletop import Tabletop
 

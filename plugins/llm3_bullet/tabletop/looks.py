@@ -3,16 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
-from llm3.types import Color, FrozenDict, Pose, color_of
+from llm3.types import Camera, Color, FrozenDict, Pose, color_of
 from llm3_bullet.scene import Box
-from llm3_bullet.stage import Camera
 from llm3_bullet.tabletop.table import TABLE
+
+if TYPE_CHECKING:  # which has one of these
+    from llm3_bullet.tabletop.env import TabletopEnv
 
 CAMERA = Camera(target=(0.36, 0.0, 0.22), distance=1.35, yaw=55.0, pitch=-30.0)
 FURNITURE: Mapping[str, Color] = FrozenDict({"table": (0.90, 0.86, 0.80), "basket": (0.45, 0.33, 0.22)})
 """By the first word of a name."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What there is to see beside the robot."""
+
+    boxes: tuple[Box, ...]
+    colors: Mapping[str, Color]
+    """Of all boxes, by name."""
+    camera: Camera
+
+
+def seen(env: TabletopEnv) -> Seen:
+    """What a world shows at its start."""
+    boxes = (*map(trimmed, env.scene(env.reset()).boxes), *env.marks)
+    return Seen(boxes, {box.name: env.colors.get(box.name) or look(box.name) for box in boxes}, env.camera)
 
 
 def look(name: str) -> Color:

@@ -13,7 +13,7 @@ from llm3.cli.problem_arguments import path, whole
 from llm3.cli.text import emit
 from llm3.errors import LLM3Error, OutputExists
 from llm3.interfaces import Picture, Stage
-from llm3.playback import Frame, evenly, frames, open_scenery, open_stage, replay_page
+from llm3.playback import Chapter, Frame, evenly, frames, open_scenery, open_stage, replay_page
 from llm3.playback.film import check_kind, write_film, write_picture
 from llm3.records import Played, read_played
 from llm3.records.whole_file import write_whole
@@ -82,7 +82,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
 
 def _write_page(played: Played, file: Path) -> None:
     scenery = open_scenery(played.domain, played.instance, played.options, "a page")
-    page = replay_page(scenery, frames(played.start, played.steps, SMOOTH))
+    moments = (frame.moment for frame in frames(played.start, played.steps, SMOOTH))
+    page = replay_page(f"{played.domain.name} in three dimensions", scenery, [Chapter("The plan", moments)])
     try:
         write_whole(file, page)
     except OSError as error:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -16,56 +16,79 @@ from scipy.spatial.transform import Rotation
 from llm3.errors import MissingDependency
 from llm3.interfaces import Frame as Place
 from llm3.interfaces import Scenery
-from llm3.playback.frames import Frame
-from llm3.types import Body, Camera, Color
+from llm3.playback.controls import Beginning, with_controls
+from llm3.playback.evidence import Touch, touching
+from llm3.types import Body, Camera, Color, Moment
 
 if TYPE_CHECKING:
-    from viser import MeshHandle, ViserServer
+    from viser import IcosphereHandle, MeshHandle, ViserServer
 
 MARKED: Color = (1.0, 0.25, 0.75)
 """The colour of what touches something."""
 DOT = 0.012
 """The radius in metres of the dot where it touches."""
+FIELD_OF_VIEW = 45.0
+"""Degrees from the upper edge to the lower one, as in PyBullet's pictures."""
+PAUSE = 0.5
+"""Seconds between two chapters."""
+SURELY = 0.1
+"""Seconds after its beginning in which a chapter is gone to: the player's clock rounds."""
 
 
 @dataclass(frozen=True)
-class Mark:
-    """Something to be seen from a moment on."""
+class Chapter:
+    """A part of a replay that can be gone to."""
 
-    time: float
-    """Seconds since the beginning."""
-    bodies: tuple[str, ...]
-    """What is marked, by name."""
-    points: tuple[tuple[float, ...], ...]
-    """Where they touch, in metres, in the world frame."""
+    title: str
+    """Such as ``"The plan"``."""
+    moments: Iterable[Moment]
+    """What is where, in the order of their times; the first is the chapter's beginning."""
+    touches: Sequence[Touch] = ()
+    """What is marked all the while."""
 
 
-def replay_page(scenery: Scenery, frames: Iterable[Frame], marks: Iterable[Mark] = ()) -> str:
-    """The page, with buttons to play and pause, a slider, and a view that can be turned.
+def replay_page(title: str, scenery: Scenery, chapters: Iterable[Chapter]) -> str:
+    """The page, with buttons to play and pause and for every chapter, a slider, and a view that can be turned.
+
+    It plays when it is asked to, and obeys messages: see `controls.js`.
 
     Args:
+        title: What the page is called.
         scenery: What there is to see.
-        frames: What is where, in the order of their times.
-        marks: What touches something, in the order of their times.
+        chapters: At least one; they are played one after another.
 
     Raises:
         MissingDependency: viser, which exports scenes, is not installed.
     """
     if find_spec("viser") is None:
         raise MissingDependency("a replay needs viser, which is not installed: pip install 'llm3[viz]'.")
-    waiting = list(marks)
+    beginnings: list[Beginning] = []
+    now = 0.0
     with _server() as server:
         scene = _Scene(server, scenery)
         recording = server.get_scene_serializer()
-        now = 0.0
-        for frame in frames:
-            moment = frame.moment
-            recording.insert_sleep(max(0.0, moment.time - now))
-            now = max(now, moment.time)
-            scene.place(scenery.places(moment))
-            while waiting and waiting[0].time <= now:
-                scene.mark(waiting.pop(0))
-        return recording.as_html()
+        for chapter in chapters:
+            if beginnings:
+                recording.insert_sleep(PAUSE)
+                now += PAUSE
+            began = now
+            beginnings.append(Beginning(chapter.title, round(began + SURELY, 2)))
+            scene.mark(chapter.touches)
+            for seconds, moment in _since_the_first(chapter.moments):
+                recording.insert_sleep(began + seconds - now)
+                now = began + seconds
+                scene.place(scenery.places(moment))
+        recording.insert_sleep(PAUSE)
+        return with_controls(recording.as_html(), title, beginnings)
+
+
+def _since_the_first(moments: Iterable[Moment]) -> Iterator[tuple[float, Moment]]:
+    """Each moment, and how many seconds later than the first it is; time does not run backwards."""
+    first, seconds = None, 0.0
+    for moment in moments:
+        first = moment.time if first is None else first
+        seconds = max(seconds, moment.time - first)
+        yield seconds, moment
 
 
 @contextmanager
@@ -87,8 +110,9 @@ class _Scene:
     def __init__(self, server: ViserServer, scenery: Scenery) -> None:
         self._server = server
         self._surfaces: dict[str, list[tuple[MeshHandle, Color]]] = {}
-        self._bodies: dict[str, Place | None] = {}
-        self._dots = 0
+        self._places: dict[str, Place | None] = {}
+        self._marked: frozenset[str] = frozenset()
+        self._dots: list[IcosphereHandle] = []
         server.scene.set_up_direction("+z")
         _look(server, scenery.camera)
         for body in scenery.bodies:
@@ -108,26 +132,30 @@ class _Scene:
     def place(self, places: Mapping[str, Place]) -> None:
         """Move what has moved."""
         for name, surfaces in self._surfaces.items():
-            place, before = places.get(name), self._bodies.get(name)
+            place, before = places.get(name), self._places.get(name)
             if place is not None and before is not None and np.array_equal(place, before):
                 continue
-            self._bodies[name] = place
+            self._places[name] = place
             for handle, _ in surfaces:
                 handle.visible = place is not None
                 if place is not None:
                     x, y, z, w = Rotation.from_matrix(place[:3, :3]).as_quat()
                     handle.wxyz, handle.position = (w, x, y, z), tuple(place[:3, 3])
 
-    def mark(self, mark: Mark) -> None:
-        """Colour what touches, and put a dot where it does."""
-        for name, surfaces in self._surfaces.items():
-            for handle, color in surfaces:
-                handle.color = _bytes(MARKED if name in mark.bodies else color)
-        for number in range(self._dots):
-            self._server.scene.remove_by_name(f"/contact/{number}")
-        for number, point in enumerate(mark.points):
-            self._server.scene.add_icosphere(f"/contact/{number}", DOT, _bytes(MARKED), position=np.array(point))
-        self._dots = len(mark.points)
+    def mark(self, touches: Sequence[Touch]) -> None:
+        """Colour what touches, put a dot where it does, and nothing else."""
+        names = touching(touches)
+        for name in names ^ self._marked:
+            for handle, color in self._surfaces.get(name, ()):
+                handle.color = _bytes(MARKED if name in names else color)
+        self._marked = names
+        points = [touch.contact.point for touch in touches if touch.contact.point]
+        while len(self._dots) < len(points):
+            self._dots.append(self._server.scene.add_icosphere(f"/contact/{len(self._dots)}", DOT, _bytes(MARKED)))
+        for number, dot in enumerate(self._dots):
+            dot.visible = number < len(points)
+            if dot.visible:
+                dot.position = np.array(points[number])
 
 
 def _look(server: ViserServer, camera: Camera) -> None:
@@ -137,6 +165,7 @@ def _look(server: ViserServer, camera: Camera) -> None:
     server.initial_camera.position = tuple(np.array(camera.target) + away)
     server.initial_camera.look_at = camera.target
     server.initial_camera.up = (0.0, 0.0, 1.0)
+    server.initial_camera.fov = radians(FIELD_OF_VIEW)
 
 
 def _bytes(color: Color) -> tuple[int, int, int]:

@@ -1,0 +1,75 @@
+// Plays the replay that this page holds, for keyboards, screen readers, and the page around it.
+//
+// viser's player has the buttons but no names for them. This gives them names, starts at a standstill, adds a button for
+// each chapter, and obeys messages: {seek: seconds}, {play: true} and {play: false}.
+"use strict";
+
+function player() {
+  const time = document.querySelector("input[inputmode=decimal]");
+  const bar = time && time.closest(".mantine-Paper-root");
+  const button = bar && bar.querySelector("button");
+  const slider = bar && bar.querySelector("[role=slider]");
+  return button && slider ? { time, bar, button, slider } : null;
+}
+
+function isPlaying({ button }) {
+  return button.querySelector(".tabler-icon-player-pause-filled") !== null;
+}
+
+function play(controls, wanted) {
+  if (isPlaying(controls) !== wanted) controls.button.click();
+}
+
+function seek({ time }, seconds) {
+  const write = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set;
+  write.call(time, String(seconds));  // React listens to the event, and asks the setter of the prototype
+  time.dispatchEvent(new Event("input", { bubbles: true }));
+  time.blur();
+}
+
+function name(controls) {
+  const label = isPlaying(controls) ? "Pause" : "Play";
+  if (controls.button.getAttribute("aria-label") === label) return;
+  controls.button.setAttribute("aria-label", label);
+  controls.button.title = label;
+}
+
+function addChapters(controls) {
+  const list = document.createElement("nav");
+  list.className = "chapters";
+  list.setAttribute("aria-label", "Chapters");
+  for (const { title, time } of CHAPTERS) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.textContent = title;
+    button.addEventListener("click", () => { play(controls, false); seek(controls, time); });
+    list.append(button);
+  }
+  controls.bar.before(list);
+}
+
+function begin(controls) {
+  play(controls, false);
+  seek(controls, CHAPTERS[0].time);
+  controls.time.setAttribute("aria-label", "Time in seconds");
+  controls.slider.setAttribute("aria-label", "Time");
+  const speed = controls.bar.querySelector("[role=combobox]");
+  if (speed) speed.setAttribute("aria-label", "Speed");
+  const canvas = document.querySelector("canvas");
+  if (canvas) { canvas.setAttribute("role", "img"); canvas.setAttribute("aria-label", document.title); }
+  name(controls);
+  new MutationObserver(() => name(controls)).observe(controls.button, { childList: true, subtree: true });
+  if (CHAPTERS.length > 1) addChapters(controls);
+  window.addEventListener("message", ({ data }) => {
+    if (data && typeof data.seek === "number") { play(controls, false); seek(controls, data.seek); }
+    if (data && typeof data.play === "boolean") play(controls, data.play);
+  });
+  document.documentElement.dataset.ready = "yes";
+}
+
+const waiting = setInterval(() => {
+  const controls = player();
+  if (!controls) return;
+  clearInterval(waiting);
+  begin(controls);
+}, 50);

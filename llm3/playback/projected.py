@@ -1,0 +1,70 @@
+"""What is seen from above, of a domain that tells what it looks like in either way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from llm3.guarded import guarded
+from llm3.interfaces import Domain, Frame, Options, Scenery
+from llm3.playback.from_above import seen_from_above
+from llm3.types import Body, Moment, Shape, State
+
+View = Callable[[Moment], tuple[Shape, ...]]
+"""The outlines of what there is at a moment, seen from above, what lies on top last."""
+
+
+def open_view(domain: Domain, instance: Any, options: Options, start: State) -> View | None:
+    """The view of a domain that has a scenery or a top view; None of one that has neither.
+
+    Args:
+        domain: What the instance is of.
+        instance: The problem.
+        options: A value for every one of the domain's `options`.
+        start: A state of the instance.
+    """
+    scenery = guarded(domain.scenery, (Scenery, type(None)), instance, options)
+    if scenery is not None:
+        return projection(scenery)
+    if seen_from_above(domain, instance, options, start) is None:
+        return None
+    return lambda moment: seen_from_above(domain, instance, options, moment.state) or ()
+
+
+def projection(scenery: Scenery) -> View:
+    """Bodies as their shadows at noon, the robot's on top: the convex outline of each.
+
+    Args:
+        scenery: Where the bodies come from.
+    """
+    points = {body.name: np.vstack([surface.corners for surface in body.surfaces]) for body in scenery.bodies}
+
+    def view(moment: Moment) -> tuple[Shape, ...]:
+        places = scenery.places(moment)
+        seen = []
+        for body in scenery.bodies:
+            if body.name in places:
+                where = points[body.name] @ places[body.name][:3, :3].T + places[body.name][:3, 3]
+                seen.append((body.kind == "robot", float(where[:, 2].max()), _shadow(body, where)))
+        return tuple(shape for *_, shape in sorted(seen, key=lambda item: item[:2]))
+
+    return view
+
+
+def _shadow(body: Body, points: Frame) -> Shape:
+    corners: tuple[tuple[float, float], ...] = tuple(map(tuple, _convex(points[:, :2]).tolist()))
+    return Shape(body.name, corners, body.kind == "fixed", body.surfaces[0].color, body.kind == "robot")
+
+
+def _convex(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The corners of the convex hull, counter-clockwise; of points on a line a box around them."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        return np.asarray(points[ConvexHull(points).vertices])
+    except QhullError:
+        (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
+        return np.array([(left, bottom), (right, bottom), (right, top), (left, top)])

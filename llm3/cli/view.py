@@ -21,15 +21,7 @@ from llm3.types import (
     Result,
     RunEvent,
 )
-from llm3.wording import counted
-
-_STOPS = {
-    "tokens": "the budget of tokens is used up",
-    "seconds": "the budget of seconds is used up",
-    "motions": "the budget of motion calls is used up",
-    "attempts": "the search made very many attempts with hardly any motion",
-    "exhausted": "everything that can be done was tried, and nothing reached the goal",
-}
+from llm3.wording import ENDINGS, counted, failure_in_words
 
 
 class RunView:
@@ -104,8 +96,8 @@ class RunView:
         if stats.tokens:
             told = f"{stats.prompt_tokens:,} tokens read, {stats.completion_tokens:,} written"
             self._line(told if cost is None else f"{told}: {cost:.4g} by the price table")
-        if result.stop in _STOPS:
-            self._line(_STOPS[result.stop], "yellow")
+        if result.stop in ENDINGS:
+            self._line(ENDINGS[result.stop], "yellow")
         if self._failed_call:  # which ended the run by its time, and not as an error
             self._line(f"the last call got no answer: {self._failed_call}", "red")
         if result.time_limited:
@@ -117,9 +109,7 @@ class RunView:
         if failure is None:
             self._line(f"{number:>4}. {outcome.action}: feasible{' (known)' * outcome.reused}", "green")
         else:
-            objects = f" ({', '.join(failure.objects)})" if failure.objects else ""
-            detail = f": {failure.detail}" if failure.detail else ""
-            self._line(f"{number:>4}. {outcome.action}: {failure.kind.value}{objects}{detail}", "red")
+            self._line(f"{number:>4}. {outcome.action}: {failure_in_words(failure)}", "red")
         for note in outcome.notes:
             self._line(f"      {note}", "yellow")
 

@@ -106,9 +106,9 @@ class FreeSpace:
         """Why none of these configurations, shape (N, dof), will do.
 
         Objects come in the order of how many of the configurations touch them, and then of depth. Contacts and
-        configuration are those of the one that is nearest to being free. The measures are ``configurations``, their
-        number, and ``hit_share``, the share of them that touches the first object. The failure's stats are for the
-        planner to fill in.
+        configuration are those of the one that is nearest to being free, among those that touch the first object. The
+        measures are ``configurations``, their number, and ``hit_share``, the share of them that touches the first
+        object. The failure's stats are for the planner to fill in.
         """
         explained = [sorted(self._problem.explain(q), key=lambda contact: -contact.depth) for q in configurations]
         nearest = min(range(len(explained)), key=lambda i: _depth(explained[i]))
@@ -117,6 +117,8 @@ class FreeSpace:
         )
         hits = {name: sum(any(c.object == name for c in contacts) for contacts in explained) for name in in_order}
         objects = tuple(sorted(hits, key=lambda name: -hits[name]))
+        touching = [i for i, contacts in enumerate(explained) if any(c.object in objects[:1] for c in contacts)]
+        nearest = min(touching, key=lambda i: _depth(explained[i]), default=nearest)
         measures = {"configurations": float(len(explained))}
         if objects:
             measures["hit_share"] = hits[objects[0]] / len(explained)

@@ -1,7 +1,7 @@
 // Plays the replay that this page holds, for keyboards, screen readers, and the page around it.
 //
 // viser's player has the buttons but no names for them. This gives them names, starts at a standstill, adds a button for
-// each chapter, and obeys messages: {seek: seconds}, {play: true} and {play: false}.
+// each chapter, and obeys messages: {chapter: its number from 0}, {play: true} and {play: false}.
 "use strict";
 
 function player() {
@@ -27,6 +27,11 @@ function seek({ time }, seconds) {
   time.blur();
 }
 
+function show(controls, chapter) {
+  play(controls, false);
+  seek(controls, chapter.time);
+}
+
 function name(controls) {
   const label = isPlaying(controls) ? "Pause" : "Play";
   if (controls.button.getAttribute("aria-label") === label) return;
@@ -38,19 +43,18 @@ function addChapters(controls) {
   const list = document.createElement("nav");
   list.className = "chapters";
   list.setAttribute("aria-label", "Chapters");
-  for (const { title, time } of CHAPTERS) {
+  for (const chapter of CHAPTERS) {
     const button = document.createElement("button");
     button.type = "button";
-    button.textContent = title;
-    button.addEventListener("click", () => { play(controls, false); seek(controls, time); });
+    button.textContent = chapter.title;
+    button.addEventListener("click", () => show(controls, chapter));
     list.append(button);
   }
   controls.bar.before(list);
 }
 
 function begin(controls) {
-  play(controls, false);
-  seek(controls, CHAPTERS[0].time);
+  show(controls, CHAPTERS[0]);
   controls.time.setAttribute("aria-label", "Time in seconds");
   controls.slider.setAttribute("aria-label", "Time");
   const speed = controls.bar.querySelector("[role=combobox]");
@@ -61,7 +65,7 @@ function begin(controls) {
   new MutationObserver(() => name(controls)).observe(controls.button, { childList: true, subtree: true });
   if (CHAPTERS.length > 1) addChapters(controls);
   window.addEventListener("message", ({ data }) => {
-    if (data && typeof data.seek === "number") { play(controls, false); seek(controls, data.seek); }
+    if (data && CHAPTERS[data.chapter]) show(controls, CHAPTERS[data.chapter]);
     if (data && typeof data.play === "boolean") play(controls, data.play);
   });
   document.documentElement.dataset.ready = "yes";

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from llm3.guarded import guarded
+from llm3.errors import MissingCapability
 from llm3.interfaces import Domain, Frame, Options, Scenery
 from llm3.playback.from_above import seen_from_above
 from llm3.types import Body, Moment, Shape, State
@@ -17,20 +17,23 @@ View = Callable[[Moment], tuple[Shape, ...]]
 """The outlines of what there is at a moment, seen from above, what lies on top last."""
 
 
-def open_view(domain: Domain, instance: Any, options: Options, start: State) -> View | None:
-    """The view of a domain that has a scenery or a top view; None of one that has neither.
+def open_view(domain: Domain, instance: Any, options: Options, start: State, scenery: Scenery | None) -> View:
+    """The shadows of a scenery, or the domain's top view where there is none.
 
     Args:
         domain: What the instance is of.
         instance: The problem.
         options: A value for every one of the domain's `options`.
         start: A state of the instance.
+        scenery: The problem's, if it has one.
+
+    Raises:
+        MissingCapability: There is neither.
     """
-    scenery = guarded(domain.scenery, (Scenery, type(None)), instance, options)
     if scenery is not None:
         return projection(scenery)
     if seen_from_above(domain, instance, options, start) is None:
-        return None
+        raise MissingCapability(domain.name, "scenery and no top view", "a view from above")
     return lambda moment: seen_from_above(domain, instance, options, moment.state) or ()
 
 

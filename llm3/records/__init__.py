@@ -6,7 +6,7 @@ from llm3.records.exchange import Exchange, RecordedReply, RecordedRequest, Usag
 from llm3.records.folder import create_default_folder, create_folder
 from llm3.records.pairing import read_exchanges
 from llm3.records.plan import PlanFile, open_plan, read_plan
-from llm3.records.played import Played, read_played
+from llm3.records.played import Played, played_of, read_played
 from llm3.records.recorder import Recorder
 from llm3.records.repetition import repeat
 from llm3.records.run_file import RunFile, read_run
@@ -26,6 +26,7 @@ __all__ = [
     "create_default_folder",
     "create_folder",
     "open_plan",
+    "played_of",
     "read_cassette",
     "read_events",
     "read_exchanges",

@@ -12,7 +12,7 @@ from llm3.interfaces import Domain, Options
 from llm3.jsonio import dumps, loads
 from llm3.records.event_reader import read_events
 from llm3.records.plan import read_plan
-from llm3.records.run_file import read_run
+from llm3.records.run_file import RunFile, read_run
 from llm3.registry import Registry
 from llm3.types import ActionTried, AttemptEnded, PlannedAction, RunStarted, State
 
@@ -46,7 +46,24 @@ def read_played(registry: Registry, path: Path, attempt: int | None = None) -> P
         return _played(registry, plan.domain, plan.instance, plan.options, "the plan's", plan.start, plan.actions)
     run = read_run(path)
     start, steps = _attempt(path, attempt)
-    return _played(registry, run.config.domain, run.instance, run.options, f"{path / 'run.json'},", start, steps)
+    return played_of(registry, path, run, start, steps)
+
+
+def played_of(registry: Registry, folder: Path, run: RunFile, start: State, steps: tuple[PlannedAction, ...]) -> Played:
+    """What a run carried out, where it is known already.
+
+    Args:
+        registry: Where the domain comes from.
+        folder: The run's, for messages.
+        run: What was asked.
+        start: Where it began.
+        steps: What was carried out.
+
+    Raises:
+        UnknownName: There is no such domain, or it has no such option.
+        InputError: The instance is none of the domain's.
+    """
+    return _played(registry, run.config.domain, run.instance, run.options, f"{folder / 'run.json'},", start, steps)
 
 
 def _played(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from llm3.types import Failure, FailureKind, MotionProblem, Stats
+from llm3.types import Contact, Failure, FailureKind, MotionProblem, Stats
 from llm3_birrt.connect import Gap, Stop
 
 MAX_EXPLAINED = 64
@@ -20,7 +20,7 @@ def no_path(problem: MotionProblem, gap: Gap, stops: Sequence[Stop], stats: Stat
     """Where the attempts to join the trees were stopped, and by what.
 
     Objects come in the order of how often they were touched; contacts and configuration are those of the stop that
-    was nearest to the other tree.
+    was nearest to the other tree, among those that touched the first object.
 
     Args:
         problem: The query.
@@ -41,7 +41,8 @@ def no_path(problem: MotionProblem, gap: Gap, stops: Sequence[Stop], stats: Stat
     }
     if to_blame:
         measures["hit_share"] = to_blame[0][1]
-    nearest = min(stops, key=lambda stop: stop.gap)
+    telling = [i for i, contacts in zip(looked_at, found, strict=True) if _touches(contacts, to_blame)]
+    nearest = min((stops[i] for i in telling), key=lambda stop: stop.gap)
     return Failure(
         FailureKind.NO_PATH,
         objects=tuple(name for name, _ in to_blame),
@@ -50,3 +51,8 @@ def no_path(problem: MotionProblem, gap: Gap, stops: Sequence[Stop], stats: Stat
         measures=measures,
         stats=stats,
     )
+
+
+def _touches(contacts: Sequence[Contact], to_blame: Sequence[tuple[str, float]]) -> bool:
+    """Whether what is to blame most is touched; true where nothing is to blame."""
+    return not to_blame or any(contact.object == to_blame[0][0] for contact in contacts)

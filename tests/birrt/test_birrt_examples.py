@@ -174,12 +174,12 @@ def test_a_start_in_collision_is_explained() -> None:
     assert failure.stats.planner_calls == 1
 
 
-def test_of_goals_in_collision_the_one_nearest_to_free_is_explained_and_what_blocks_most_of_them() -> None:
+def test_of_goals_in_collision_the_one_nearest_to_free_is_explained_that_touches_what_blocks_most_of_them() -> None:
     touched = {
         0.6: {"wall": 0.05},
         0.7: {"shelf": 0.01},
         0.8: {"wall": 0.02, "shelf": 0.005, "lamp": 0.01},
-        0.9: {"wall": 0.02},
+        0.9: {"wall": 0.03},
     }
 
     def explain(point: Vector) -> tuple[Contact, ...]:
@@ -190,8 +190,8 @@ def test_of_goals_in_collision_the_one_nearest_to_free_is_explained_and_what_blo
     failure = plan(problem(lambda points: points[:, 0] < 0.5, *goals, explain=explain))
     assert isinstance(failure, Failure)
     assert failure.kind is FailureKind.GOAL_IN_COLLISION
-    assert failure.configuration == (0.7, 0.2)
-    assert failure.contacts == (Contact("point", "shelf", 0.01),)
+    assert failure.configuration == (0.8, 0.2)
+    assert [contact.object for contact in failure.contacts] == ["wall", "lamp", "shelf"]
     assert failure.objects == ("wall", "shelf", "lamp")
     assert failure.measures == {"configurations": 5, "hit_share": 3 / 5}
 

@@ -91,9 +91,9 @@ def _write_page(played: Played, file: Path) -> None:
 
 
 def _pictures(stage: Stage, shown: Sequence[Frame], arguments: Namespace) -> Iterator[Picture]:
-    from llm3.cli.render_view import RenderView  # rich takes a while to import
+    from llm3.cli.progress_view import ProgressView  # rich takes a while to import
 
-    with RenderView(len(shown), arguments.quiet) as view:
+    with ProgressView("picture", len(shown), arguments.quiet) as view:
         for frame in shown:
             stage.show(frame.moment)
             yield stage.picture(*arguments.size)

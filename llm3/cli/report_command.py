@@ -1,4 +1,4 @@
-"""Write what happened in a run, or what came of an experiment, as one HTML page that needs no network."""
+"""Write what happened in a run, or what came of an experiment, as one page that needs no network."""
 
 from __future__ import annotations
 
@@ -9,36 +9,65 @@ from typing import TextIO
 
 from llm3.cli.problem_arguments import path
 from llm3.cli.text import emit, printable
-from llm3.errors import LLM3Error, OutputExists
+from llm3.errors import InputError, LLM3Error, OutputExists
+from llm3.experiments import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder
 from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
-
-PAGE = "report.html"
+from llm3.report import PAGE, Report, experiment_report, recorded_runs, run_report
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
-    add("folder", type=path, metavar="DIR", help="the folder of a run")
-    add("--out", type=path, metavar="FILE", help="the page (default: report.html in DIR)")
+    add("folder", type=path, metavar="DIR", help="the folder of a run, or of an experiment")
+    add("--out", type=path, metavar="FILE", help=f"the page (default: {PAGE} in DIR, which is overwritten)")
     add("--force", action="store_true", help="overwrite FILE")
-    add("--small", action="store_true", help="without pictures of the plan and the replay in three dimensions")
-    add("--quiet", action="store_true", help="no remarks on stderr")
+    add(
+        "--small",
+        action="store_true",
+        help="of a run: no pictures of the plan, no replay; of an experiment: no reports of its runs",
+    )
+    add("--quiet", action="store_true", help="no progress on stderr")
 
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
-    from llm3.report import run_report
-
-    file: Path = arguments.out or arguments.folder / PAGE
+    folder: Path = arguments.folder
+    file: Path = arguments.out or folder / PAGE
     if arguments.out and file.exists() and not arguments.force:
         raise OutputExists(f"'{file}' exists: give another --out, or --force.")
-    report = run_report(Registry.discover(), arguments.folder, moving=not arguments.small)
-    try:
-        write_whole(file, report.page)
-    except OSError as error:
-        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error
+    registry = Registry.discover()
+    if (folder / EXPERIMENT_FILE).exists():
+        record = read_experiment_folder(folder)
+        if not arguments.small:
+            _write_runs(registry, record, arguments.quiet)
+        report = experiment_report(registry, record, file.parent)
+    elif folder.exists() and not (folder / "run.json").exists():
+        raise InputError(
+            f"'{folder}' holds neither run.json nor {EXPERIMENT_FILE}: it is no run's and no experiment's."
+        )
+    else:
+        report = run_report(registry, folder, moving=not arguments.small)
+    _write(report, file)
     for note in report.notes if not arguments.quiet else ():
         sys.stderr.write(f"{printable(note)}\n")
     emit(f"{file}\n", out)
     return 0
+
+
+def _write_runs(registry: Registry, record: ExperimentRecord, quiet: bool) -> None:
+    """Write the reports of an experiment's runs that are not there yet."""
+    from llm3.cli.progress_view import ProgressView  # rich takes a while to import
+
+    missing = [folder for folder in recorded_runs(record) if not (folder / PAGE).exists()]
+    with ProgressView("report", len(missing), quiet) as view:
+        for folder in missing:
+            _write(run_report(registry, folder, moving=False), folder / PAGE)
+            view.advance()
+
+
+def _write(report: Report, file: Path) -> None:
+    try:
+        write_whole(file, report.page)
+    except OSError as error:
+        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error

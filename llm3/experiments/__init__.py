@@ -1,7 +1,7 @@
 """Many runs from one description: read it, run it at any size, and keep a line for each run."""
 
 from llm3.experiments.experiment import Experiment, Job, Method, ProblemFamily, RunKey
-from llm3.experiments.folder import ExperimentRecord, read_experiment_folder, record_folder
+from llm3.experiments.folder import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder, record_folder
 from llm3.experiments.layout import MEASURES, Column, Group, Layout, Published
 from llm3.experiments.outlook import MethodOutlook, Share, look_ahead, providers, settled, shares, versions_of
 from llm3.experiments.overrides import overridden
@@ -11,6 +11,7 @@ from llm3.experiments.toml_file import experiment_of, parse_toml
 from llm3.experiments.writer import ExperimentWriter
 
 __all__ = [
+    "EXPERIMENT_FILE",
     "MEASURES",
     "Column",
     "Experiment",

@@ -43,7 +43,7 @@ def projection(scenery: Scenery) -> View:
     Args:
         scenery: Where the bodies come from.
     """
-    points = {body.name: np.vstack([surface.corners for surface in body.surfaces]) for body in scenery.bodies}
+    points = {body.name: _outermost(np.vstack([s.corners for s in body.surfaces])) for body in scenery.bodies}
 
     def view(moment: Moment) -> tuple[Shape, ...]:
         places = scenery.places(moment)
@@ -63,7 +63,7 @@ def _shadow(body: Body, points: Frame) -> Shape:
 
 
 def _convex(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The corners of the convex hull, counter-clockwise; of points on a line a box around them."""
+    """The corners of the convex hull, shape (N, 2), counter-clockwise; of points on a line a box around them."""
     from scipy.spatial import ConvexHull, QhullError
 
     try:
@@ -71,3 +71,13 @@ def _convex(points: NDArray[np.float64]) -> NDArray[np.float64]:
     except QhullError:
         (left, bottom), (right, top) = points.min(axis=0), points.max(axis=0)
         return np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+
+
+def _outermost(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Those of the points, shape (N, 3), that shape the shadows, whichever way they are turned: meshes have many."""
+    from scipy.spatial import ConvexHull, QhullError
+
+    try:
+        return np.asarray(points[ConvexHull(points).vertices])
+    except QhullError:  # they are flat
+        return points

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.model import RobotModel
 from llm3_bullet.mounting import urdf_file
 from llm3_bullet.poses import as_matrix
+from llm3_bullet.robot import RobotDescription
 from llm3_bullet.scene import Box
 
 if TYPE_CHECKING:
@@ -46,7 +48,7 @@ class BulletScenery(Scenery):
             raise MissingDependency("a replay needs trimesh, which is not installed: pip install 'llm3[viz]'.")
         self._kinematics, self._camera = Kinematics(model), camera
         self._boxes = {box.name: box for box in boxes}
-        looks = _looks(model)
+        looks = _looks(model.description)
         links = (Body(name, tuple(looks.get(name, ())), "robot") for name in model.links)
         things = (
             Body(box.name, (box_surface(box.size, colors.get(box.name, GREY)),), "fixed" if box.fixed else "object")
@@ -76,19 +78,21 @@ class BulletScenery(Scenery):
         return found
 
 
-def _looks(model: RobotModel) -> Mapping[str, list[Surface]]:
+@lru_cache(4)  # a robot has many meshes, and a report of an experiment shows it in every run
+def _looks(robot: RobotDescription) -> Mapping[str, list[Surface]]:
     """What each link looks like, as PyBullet reads the URDF."""
     found: dict[str, list[Surface]] = {}
-    with connect() as client, urdf_file(model.description) as file:
+    links = RobotModel(robot).links
+    with connect() as client, urdf_file(robot) as file:
         with quiet():
-            robot = client.loadURDF(str(file), useFixedBase=True)
-        for _, link, kind, size, source, position, orientation, color, *_ in client.getVisualShapeData(robot):
+            body = client.loadURDF(str(file), useFixedBase=True)
+        for _, link, kind, size, source, position, orientation, color, *_ in client.getVisualShapeData(body):
             frame = as_matrix(Pose(position, orientation))
             for mesh in _meshes(client, kind, size, source.decode()):
                 mesh.apply_transform(frame)
                 look = _own_color(mesh) if tuple(color[:3]) == PLAIN else tuple(color[:3])
                 surface = Surface(mesh.vertices, mesh.faces, look)
-                found.setdefault(model.links[link + 1], []).append(surface)
+                found.setdefault(links[link + 1], []).append(surface)
     return found
 
 

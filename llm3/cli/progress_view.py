@@ -1,4 +1,4 @@
-"""How far a film has come, on stderr: a live bar in a terminal, a line at the end in a pipe."""
+"""How far something has come that takes a while, on stderr: a live bar in a terminal, a line at the end in a pipe."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from llm3.cli.console import ViewConsole
 from llm3.wording import counted
 
 
-class RenderView:
-    """Use it in a ``with`` while pictures are made."""
+class ProgressView:
+    """Use it in a ``with`` while things are made."""
 
-    def __init__(self, total: int, quiet: bool) -> None:
-        """Expect so many pictures."""
-        self._console, self._total = ViewConsole(quiet), total
-        columns = (TextColumn("pictures"), BarColumn(), MofNCompleteColumn())
+    def __init__(self, noun: str, total: int, quiet: bool) -> None:
+        """Expect so many things, which the noun calls by their name."""
+        self._console, self._noun, self._total = ViewConsole(quiet), noun, total
+        columns = (TextColumn(f"{noun}s"), BarColumn(), MofNCompleteColumn())
         self._progress = Progress(*columns, console=self._console, disable=not self._console.is_live)
         self._task = self._progress.add_task("", total=total)
 
@@ -25,7 +25,7 @@ class RenderView:
         """One more is made."""
         self._progress.advance(self._task)
 
-    def __enter__(self) -> RenderView:
+    def __enter__(self) -> ProgressView:
         self._progress.start()
         return self
 
@@ -34,4 +34,4 @@ class RenderView:
     ) -> None:
         self._progress.stop()
         if error is None and not self._console.is_live:
-            self._console.print(Text(counted(self._total, "picture")))
+            self._console.print(Text(counted(self._total, self._noun)))

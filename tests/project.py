@@ -27,6 +27,6 @@ def packages() -> dict[str, Path]:
 
 def shipped(folder: Path) -> set[str]:
     """The product files of a package, as they are called inside a wheel."""
-    kinds = (".py", ".j2", ".jinja", ".json", ".toml", ".urdf")
+    kinds = (".py", ".j2", ".jinja", ".json", ".toml", ".urdf", ".js", ".css")
     found = [path for path in (ROOT / folder).rglob("*") if path.suffix in kinds or path.name == "py.typed"]
     return {path.relative_to((ROOT / folder).parent).as_posix() for path in found}

@@ -9,7 +9,8 @@ function player() {
   const bar = time && time.closest(".mantine-Paper-root");
   const button = bar && bar.querySelector("button");
   const slider = bar && bar.querySelector("[role=slider]");
-  return button && slider ? { time, bar, button, slider } : null;
+  const canvas = document.querySelector("canvas[data-engine]");
+  return canvas && button && slider ? { time, bar, button, slider, canvas } : null;
 }
 
 function isPlaying({ button }) {
@@ -59,8 +60,8 @@ function begin(controls) {
   controls.slider.setAttribute("aria-label", "Time");
   const speed = controls.bar.querySelector("[role=combobox]");
   if (speed) speed.setAttribute("aria-label", "Speed");
-  const canvas = document.querySelector("canvas");
-  if (canvas) { canvas.setAttribute("role", "img"); canvas.setAttribute("aria-label", document.title); }
+  controls.canvas.setAttribute("role", "img");
+  controls.canvas.setAttribute("aria-label", document.title);
   name(controls);
   new MutationObserver(() => name(controls)).observe(controls.button, { childList: true, subtree: true });
   if (CHAPTERS.length > 1) addChapters(controls);

@@ -13,7 +13,7 @@ from docs_pages import ROOT, names, page, table, tables
 import llm3
 from llm3.registry import HOOKS
 
-PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.records", "llm3.testing")
+PUBLIC = ("llm3", "llm3.types", "llm3.interfaces", "llm3.records", "llm3.report", "llm3.testing")
 
 
 def has_docstring(thing: object) -> bool:

@@ -9,7 +9,7 @@ from llm3.playback.frames import PACE, STANDSTILL
 
 
 def test_the_commands_make_the_film_that_the_page_tells_of(corridor, capsys):
-    (first, second) = [
+    first, report, film = [
         line
         for block in blocks(page("watch"), "console")
         for line in re.findall(r"^\$ llm3 (.*)$", block.text, re.MULTILINE)
@@ -17,14 +17,18 @@ def test_the_commands_make_the_film_that_the_page_tells_of(corridor, capsys):
     ]
     assert main(first.split()) == 0
     capsys.readouterr()
-    assert main([*second.split(), "--size", "64x48", "--rate", "1"]) == 0
+    assert main([*report.split(), "--small"]) == 0
+    assert capsys.readouterr().out == "runs/clutter/report.html\n"
+    assert main([*film.split(), "--size", "64x48", "--rate", "1"]) == 0
     assert capsys.readouterr().out == "clutter.gif\n"
     assert (corridor / "clutter.gif").read_bytes().startswith(b"GIF89a")
 
 
 def test_the_table_has_every_flag_that_decides_what_is_drawn():
     told = {
-        name.split()[0] for row in table(page("watch"), "As a film, or as a picture").rows for name in names(row[0])
+        name.split()[0]
+        for row in table(page("watch"), "As a film, as a picture, or in three dimensions").rows
+        for name in names(row[0])
     }
     flags = {flag for flag in build_parser("render")._option_string_actions if flag.startswith("--")}
     assert told == flags - {"--help", "--debug", "--force", "--quiet"}

@@ -1,0 +1,163 @@
+"""A report opens from disk without a network, plays, marks what touches, and can be used without a mouse."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from llm3.cli.main import main
+
+pytestmark = [pytest.mark.slow, pytest.mark.pybullet]
+MEGABYTES_OF_A_REPORT = 8
+PATIENCE = 180_000
+"""Milliseconds to wait for what a page does, on whatever machine."""
+CONTRASTS = (Path(__file__).parent / "contrast.js").read_text()
+
+
+@pytest.fixture
+def replay(page):
+    """The replay in the report, at the beginning of the plan, at a standstill."""
+    frame = ready(page.frame_locator("#player"))
+    frame.get_by_role("button", name="The plan").click()
+    return frame
+
+
+def ready(frame):
+    """The same page or frame, once its replay can be played."""
+    frame.locator("html[data-ready]").wait_for(timeout=PATIENCE, state="attached")
+    return frame
+
+
+def picture(frame):
+    """What the replay shows, as pixels."""
+    canvas = frame.locator("canvas[data-engine]")
+    canvas.page.wait_for_timeout(1500)  # it draws when it comes to it
+    return np.asarray(Image.open(BytesIO(canvas.screenshot(timeout=PATIENCE))).convert("RGB")).astype(int)
+
+
+def changed(before, after):
+    """How many pixels are not what they were."""
+    return int((np.abs(before - after).max(axis=2) > 30).sum())
+
+
+def pink(pixels):
+    """How many pixels have the colour of what touches."""
+    red, green, blue = np.moveaxis(pixels, 2, 0)
+    return int(((red > 150) & (blue > 100) & (green < 110) & (red > green + 80)).sum())
+
+
+def time(frame):
+    return float(frame.get_by_label("Time in seconds").input_value())
+
+
+@pytest.fixture(scope="module")
+def small(reported):
+    """The same report without pictures and replay."""
+    file = reported.with_name("small.html")
+    assert main(["report", str(reported.parent), "--small", "--quiet", "--out", str(file)]) == 0
+    return file
+
+
+def test_it_is_one_file_of_a_few_megabytes(reported):
+    assert reported.stat().st_size < MEGABYTES_OF_A_REPORT * 10**6
+
+
+def test_the_play_button_moves_the_arm_and_the_pause_button_stops_it(page, replay):
+    before, began = picture(replay), time(replay)
+    assert changed(before, picture(replay)) == 0
+    replay.get_by_role("button", name="Play").click()
+    page.wait_for_timeout(3000)
+    replay.get_by_role("button", name="Pause").click()
+    after = picture(replay)
+    assert time(replay) > began + 1
+    assert changed(before, after) > 300
+    assert changed(after, picture(replay)) == 0
+
+
+def test_an_attempt_that_failed_is_shown_with_what_touches_in_pink(page, replay):
+    assert pink(picture(replay)) == 0
+    page.get_by_role("button", name="Show attempt 1 in three dimensions").click()
+    assert pink(picture(replay)) > 30
+    replay.get_by_role("button", name="The plan").click()
+    assert pink(picture(replay)) == 0
+
+
+def test_the_replay_can_be_played_and_sought_by_keyboard(page, replay):
+    replay.get_by_role("button", name="Play").focus()
+    page.keyboard.press("Enter")
+    replay.get_by_role("button", name="Pause").wait_for(timeout=PATIENCE)
+    page.keyboard.press("Enter")
+    replay.get_by_role("button", name="Play").wait_for(timeout=PATIENCE)
+    replay.get_by_role("navigation", name="Chapters").get_by_role("button").last.focus()
+    page.keyboard.press("Enter")
+    page.wait_for_timeout(500)
+    assert time(replay) > 10
+
+
+def test_everything_that_can_be_used_is_reached_by_tab_and_shows_that_it_is(small, visit):
+    with visit(small) as page:
+        wanted = page.locator("main a, main summary, main button").count()
+        reached = set()
+        for _ in range(wanted + 20):
+            page.keyboard.press("Tab")
+            found = page.evaluate(
+                """() => {
+                    const all = [...document.querySelectorAll("main a, main summary, main button")];
+                    const outline = getComputedStyle(document.activeElement).outlineStyle;
+                    return { index: all.indexOf(document.activeElement), outline };
+                }"""
+            )
+            if found["index"] >= 0:
+                assert found["outline"] != "none"
+                reached.add(found["index"])
+        assert len(reached) == wanted
+
+
+@pytest.mark.parametrize("width", [1200, 400])
+def test_every_text_stands_out_and_nothing_is_wider_than_the_page(small, visit, width):
+    with visit(small, width) as page:
+        page.evaluate("document.querySelectorAll('details').forEach((e) => { e.open = true; })")
+        texts = page.evaluate(CONTRASTS)
+        assert len(texts) > 100
+        assert [text for text in texts if text["ratio"] < text["least"]] == []
+        assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_a_replay_of_its_own_plays_too(reported, tmp_path, visit):
+    file = tmp_path / "replay.html"
+    assert main(["render", str(reported.parent), "--out", str(file), "--quiet"]) == 0
+    with visit(file) as page:
+        before = picture(ready(page))
+        page.get_by_role("button", name="Play").click()
+        page.wait_for_timeout(3000)
+        assert changed(before, picture(page)) > 300
+
+
+def test_the_report_of_an_experiment_leads_to_those_of_its_runs(tmp_path, visit):
+    folder = tmp_path / "experiment"
+    asked = [
+        "experiment",
+        "tabletop2d",
+        "--attempts",
+        "1",
+        "--problem",
+        "clutter",
+        "--method",
+        "offline",
+        "--quiet",
+        "--out",
+    ]
+    assert main([*asked, str(folder)]) == 0
+    assert main(["report", str(folder), "--quiet"]) == 0
+    with visit(folder / "report.html") as page:
+        texts = page.evaluate(CONTRASTS)
+        assert [text for text in texts if text["ratio"] < text["least"]] == []
+        links = page.locator("#runs ~ * a")
+        assert links.count() == 1
+        target = (folder / links.first.get_attribute("href")).resolve()
+    with visit(target) as page:
+        assert "tabletop2d" in page.title()

@@ -1,0 +1,3 @@
+from in_process import command, cwd, plugins
+
+__all__ = ["command", "cwd", "plugins"]

@@ -32,8 +32,18 @@ class Joint:
     """The fastest that it may move either way, in its unit per second; None if that is not known."""
     max_acceleration: float | None = None
     """The hardest that it may accelerate or brake, in its unit per second squared; None if that is not known."""
+    min_position: float | None = None
+    """The one end of its travel, in its unit; None if it is not known, or there is none."""
+    max_position: float | None = None
+    """The other end; known if the first one is."""
 
     def __post_init__(self) -> None:
+        low, high = self.min_position, self.max_position
+        if (low is None) != (high is None) or (low is not None and high is not None and not -inf < low < high < inf):
+            raise ValueError(
+                f"joint {self.name!r}: the min position and the max position must be two numbers, the first one less, "
+                f"or both null, not {low} and {high}"
+            )
         for name in ("max_velocity", "max_acceleration"):
             value = getattr(self, name)
             if value is not None and not 0 < value < inf:

@@ -251,7 +251,8 @@ def test_a_plan_holds_all_that_is_needed_to_check_it_again(tmp_path):
     assert list(plan) == ["format", "domain", "instance", "options", "joints", "start", "actions"]
     assert (plan["format"], plan["domain"], plan["instance"]) == ("llm3-plan/1", "full-line", {"start": 0.0})
     assert plan["options"] == {"ground": "wet", "colour": "red"}
-    assert plan["joints"] == [{"name": "wheel", "unit": "m", "max_velocity": None, "max_acceleration": None}]
+    limits = dict.fromkeys(("max_velocity", "max_acceleration", "min_position", "max_position"))
+    assert plan["joints"] == [{"name": "wheel", "unit": "m", **limits}]
     assert plan["start"]["configuration"] == [0.0]
     assert [step["action"]["name"] for step in plan["actions"]] == ["go", "take", "go"]
     roll, lock = plan["actions"][2]["motion"]["segments"]

@@ -68,9 +68,14 @@ class Tabletop:
         """The arm's joints."""
         model = self.workcell.model
         return tuple(
-            Joint(name, max_velocity=velocity, max_acceleration=acceleration)
-            for name, velocity, acceleration in zip(
-                model.description.arm_joints, model.max_velocity, model.max_acceleration, strict=True
+            Joint(name, "rad", velocity, acceleration, float(low), float(high))
+            for name, velocity, acceleration, low, high in zip(
+                model.description.arm_joints,
+                model.max_velocity,
+                model.max_acceleration,
+                model.low,
+                model.high,
+                strict=True,
             )
         )
 

@@ -94,6 +94,14 @@ def path(text: str) -> Path:
     return Path(text)
 
 
+def plan_name(plan: Path) -> str:
+    """What a plan is called after: a run's folder, or the plan's file."""
+    place = plan.resolve()
+    if place.name == "plan.json":
+        place = place.parent
+    return place.stem if place.is_file() else place.name
+
+
 def whole(text: str, least: int, most: int) -> int:
     """A whole number, for arguments."""
     if text.isascii() and text.isdigit() and len(text) <= len(str(most)) and least <= int(text) <= most:

@@ -9,7 +9,7 @@ from math import nan
 from pathlib import Path
 from typing import TextIO
 
-from llm3.cli.problem_arguments import path, whole
+from llm3.cli.problem_arguments import path, plan_name, whole
 from llm3.cli.text import emit
 from llm3.errors import LLM3Error, OutputExists
 from llm3.interfaces import Picture, Stage
@@ -55,7 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
-    file = arguments.out or Path(f"{_name(arguments.plan)}.gif")
+    file = arguments.out or Path(f"{plan_name(arguments.plan)}.gif")
     if file.suffix.lower() != PAGE:
         check_kind(file)
     if file.exists() and not arguments.force:
@@ -108,14 +108,6 @@ def _at(played: Played, seconds: float | None) -> Moment:
             break
         moment = frame.moment
     return moment
-
-
-def _name(plan: Path) -> str:
-    """The name of a run's folder, or of a plan's file."""
-    whole = plan.resolve()
-    if whole.name == "plan.json":
-        whole = whole.parent
-    return whole.stem if whole.is_file() else whole.name
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -8,12 +8,16 @@ from pathlib import Path
 ENDING = ".new"
 
 
-def write_whole(path: Path, text: str) -> None:
+def write_whole(path: Path, content: str | bytes) -> None:
     """Write a file beside its place and move it there: whoever is killed leaves the old file or the new one."""
     beside = path.with_name(f"{path.name}.{os.getpid()}{ENDING}")
-    with beside.open("w", encoding="utf-8") as file:  # a killed process of this number may have left one
-        file.write(text)
-    beside.replace(path)
+    try:
+        # A killed process of this number may have left one.
+        beside.write_bytes(content.encode() if isinstance(content, str) else content)
+        beside.replace(path)
+    except OSError:
+        beside.unlink(missing_ok=True)
+        raise
 
 
 def is_beside(path: Path, name: str) -> bool:

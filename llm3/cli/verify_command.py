@@ -8,6 +8,7 @@ from typing import TextIO
 
 from llm3.cli.problem_arguments import path
 from llm3.cli.text import emit, printable
+from llm3.export import plan_with, read_program
 from llm3.jsonio import dumps
 from llm3.records import PlanFile, open_plan, read_plan
 from llm3.registry import Registry
@@ -19,12 +20,20 @@ from llm3.wording import counted
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     parser.add_argument("plan", type=path, metavar="PLAN", help="a plan.json, or the folder of a run")
+    parser.add_argument(
+        "--trajectories",
+        type=path,
+        metavar="FILE",
+        help="check these motions in place of the plan's: a .json, .csv or .npz of 'llm3 export'",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command: 0 sound, 1 not sound."""
     plan = read_plan(arguments.plan)
+    if arguments.trajectories:
+        plan = plan_with(plan, read_program(arguments.trajectories))
     with open_plan(Registry.discover(), plan) as problem:
         found = verify(problem, plan)
     if arguments.json:

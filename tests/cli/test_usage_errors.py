@@ -67,11 +67,11 @@ SENTENCES = {
     ),
     "lst": (
         "unknown command 'lst'; did you mean 'list'? Known: check, doctor, experiment, export, instance, list, models, "
-        "new, prompt, render, results, run, verify."
+        "new, prompt, render, report, results, run, verify."
     ),
     "--domain corridor list": (
         "unexpected argument 'list'. A command stands first: run, prompt, experiment, instance, verify, export, "
-        "render, results, models, doctor, check, new, list."
+        "report, render, results, models, doctor, check, new, list."
     ),
     "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
     "prompt --domain corridor --llm http": (

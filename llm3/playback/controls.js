@@ -1,7 +1,8 @@
 // Plays the replay that this page holds, for keyboards, screen readers, and the page around it.
 //
 // viser's player has the buttons but no names for them. This gives them names, starts at a standstill, adds a button for
-// each chapter, and obeys messages: {chapter: its number from 0}, {play: true} and {play: false}.
+// each chapter, and obeys messages: {chapter: its number from 0}, also one that comes before the player is there, as
+// browsers let a frame wait that nobody sees yet.
 "use strict";
 
 function player() {
@@ -55,7 +56,7 @@ function addChapters(controls) {
 }
 
 function begin(controls) {
-  show(controls, CHAPTERS[0]);
+  show(controls, wanted);
   controls.time.setAttribute("aria-label", "Time in seconds");
   controls.slider.setAttribute("aria-label", "Time");
   const speed = controls.bar.querySelector("[role=combobox]");
@@ -65,16 +66,21 @@ function begin(controls) {
   name(controls);
   new MutationObserver(() => name(controls)).observe(controls.button, { childList: true, subtree: true });
   if (CHAPTERS.length > 1) addChapters(controls);
-  window.addEventListener("message", ({ data }) => {
-    if (data && CHAPTERS[data.chapter]) show(controls, CHAPTERS[data.chapter]);
-    if (data && typeof data.play === "boolean") play(controls, data.play);
-  });
   document.documentElement.dataset.ready = "yes";
 }
 
+let wanted = CHAPTERS[0];
+let ready = null;  // the controls, once there are any
+
+window.addEventListener("message", ({ data }) => {
+  if (!data || !CHAPTERS[data.chapter]) return;
+  wanted = CHAPTERS[data.chapter];
+  if (ready) show(ready, wanted);
+});
+
 const waiting = setInterval(() => {
-  const controls = player();
-  if (!controls) return;
+  ready = player();
+  if (!ready) return;
   clearInterval(waiting);
-  begin(controls);
+  begin(ready);
 }, 50);

@@ -21,6 +21,7 @@ CONTRASTS = (Path(__file__).parent / "contrast.js").read_text()
 @pytest.fixture
 def replay(page):
     """The replay in the report, at the beginning of the plan, at a standstill."""
+    page.locator("#player").scroll_into_view_if_needed()  # a frame that nobody sees has to wait
     frame = ready(page.frame_locator("#player"))
     frame.get_by_role("button", name="The plan").click()
     return frame
@@ -79,11 +80,17 @@ def test_the_play_button_moves_the_arm_and_the_pause_button_stops_it(page, repla
 
 
 def test_an_attempt_that_failed_is_shown_with_what_touches_in_pink(page, replay):
-    assert pink(picture(replay)) == 0
+    assert pink(picture(replay)) < 10  # where red meets blue
     page.get_by_role("button", name="Show attempt 1 in three dimensions").click()
     assert pink(picture(replay)) > 30
     replay.get_by_role("button", name="The plan").click()
-    assert pink(picture(replay)) == 0
+    assert pink(picture(replay)) < 10  # where red meets blue
+
+
+def test_an_attempt_that_is_asked_for_before_the_replay_is_seen_is_shown_when_it_is(reported, visit):
+    with visit(reported) as page:
+        page.get_by_role("button", name="Show attempt 1 in three dimensions").click()
+        assert pink(picture(ready(page.frame_locator("#player")))) > 30
 
 
 def test_the_replay_can_be_played_and_sought_by_keyboard(page, replay):

@@ -28,7 +28,9 @@ def check_end(episode):
     """The reason that the record gives for the end is the true one."""
     config, record, stats = episode.config, episode.record, episode.record["stats"]
     assert stats["llm_calls"] <= config.max_llm_calls
-    assert stats["step_downs"] == Counter(episode.answers)["refused response_format"] <= 1
+    refused = Counter(episode.answers)["refused response_format"]
+    assert stats["step_downs"] <= 1
+    assert stats["step_downs"] <= refused <= stats["step_downs"] + stats["retries"]  # one that came too late is retried
     received = [event for event in episode.events if event["event"] == "ReplyReceived"]
     failed = [event for event in episode.events if event["event"] == "CallFailed"]
     assert len(received) == stats["llm_calls"]

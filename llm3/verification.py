@@ -39,10 +39,10 @@ def verify(problem: Problem, plan: PlanFile) -> Verification:
 
 def _departures(env: Env, plan: PlanFile) -> Iterator[Defect]:
     """Where the plan departs from the problem: another start, or what is no action."""
-    for difference in _differences(plan.start, guarded(env.reset, (State,))):
+    for difference in differences(plan.start, guarded(env.reset, (State,))):
         yield Defect(f"the plan does not start where the problem does: {difference}")
     for number, step in enumerate(plan.actions, start=1):
-        reason = _fault(env, step.action)
+        reason = fault(env, step.action)
         if reason:
             yield Defect(reason, number, str(step.action))
 
@@ -66,7 +66,7 @@ def _unmet(env: Env, plan: PlanFile) -> Iterator[Defect]:
         yield Defect(f"by its last state, the plan misses the goal: {sentence}")
 
 
-def _differences(said: State, true: State) -> Iterator[str]:
+def differences(said: State, true: State) -> Iterator[str]:
     """What two states do not agree on."""
     names = sorted({*said.poses, *true.poses})
     for name in names:
@@ -77,7 +77,7 @@ def _differences(said: State, true: State) -> Iterator[str]:
             yield f"{field} is {dumps(getattr(said, field))}, not {dumps(getattr(true, field))}"
 
 
-def _fault(env: Env, action: Action) -> str:
+def fault(env: Env, action: Action) -> str:
     """Why something is no action of this problem; empty if it is one. What a model may write decides."""
     read = parse_reply(dumps({"Full Plan": [str(action)]}), env.schemas, env.objects)
     if not isinstance(read, Proposal):

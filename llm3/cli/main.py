@@ -24,6 +24,7 @@ COMMANDS = {
     "experiment": "run many methods on many problems, as the tables of the paper do",
     "instance": "write a problem to a file, for --instance",
     "verify": "check a plan again, in a fresh world and without a model",
+    "execute": "carry a plan out with motors, friction and gravity, and say what became of it",
     "export": "write the motions of a plan to a file for a robot",
     "report": "write what happened in a run, or came of an experiment, as a page to read",
     "render": "make a film or a picture of a plan, or of an attempt",

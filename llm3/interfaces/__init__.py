@@ -3,6 +3,7 @@
 from llm3.interfaces.backend import BackendSettings, LLMBackend, Regions, StandIn
 from llm3.interfaces.domain import Domain, Option, Options
 from llm3.interfaces.env import Env, Joint
+from llm3.interfaces.executor import Executor
 from llm3.interfaces.feedback import FeedbackSynthesizer
 from llm3.interfaces.free_space import FreeSpace
 from llm3.interfaces.model_source import ModelSource
@@ -18,6 +19,7 @@ __all__ = [
     "BackendSettings",
     "Domain",
     "Env",
+    "Executor",
     "FeedbackSynthesizer",
     "Frame",
     "FreeSpace",

@@ -9,10 +9,11 @@ from typing import Any
 
 from llm3.interfaces.backend import Regions, StandIn
 from llm3.interfaces.env import Env
+from llm3.interfaces.executor import Executor
 from llm3.interfaces.scenery import Scenery
 from llm3.interfaces.stage import Stage
 from llm3.interfaces.verifier import PlanVerifier
-from llm3.types import Shape, Sketch, State
+from llm3.types import Noise, Shape, Sketch, State
 
 Options = Mapping[str, str]
 """Domain options as the user wrote them (``-D key=value``)."""
@@ -122,6 +123,19 @@ class Domain(ABC):
 
     def verifier(self, instance: Any, options: Options) -> PlanVerifier | None:  # noqa: ARG002  # part of the interface
         """A second look at plans of this instance, for ``llm3 verify``; it shares no code with `make`."""
+        return None
+
+    def executor(self, instance: Any, options: Options, noise: Noise) -> Executor | None:  # noqa: ARG002  # as above
+        """Something that carries out plans of this instance, for ``llm3 execute``.
+
+        Args:
+            instance: As for `make`.
+            options: As for `make`.
+            noise: By how much its world differs from plans, if it is a simulated one.
+
+        Raises:
+            UsageError: It drives a robot, whose world has a noise of its own, and `noise` is not empty.
+        """
         return None
 
     def top_view(self, instance: Any, options: Options, state: State) -> tuple[Shape, ...] | None:  # noqa: ARG002  # as above

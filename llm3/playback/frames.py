@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from llm3.types import EventKind, Held, Moment, PlannedAction, Pose, Segment, State, moment_of
+from llm3.types import EventKind, Held, Moment, PlannedAction, Pose, Segment, State, Timed, moment_of
 
 STANDSTILL = 0.4
 """Seconds for which the robot stands still at an event, as plans do not tell how long a gripper takes."""
-PACE = 1.0
-"""How fast a joint moves at most where a plan has no times: in radians, or metres, per second."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +25,7 @@ class Frame:
 def frames(start: State, steps: Iterable[PlannedAction], rate: float) -> Iterator[Frame]:
     """What is where at the start, at even times while the robot moves, at every event and at the end of every action.
 
-    Where the plan has trajectories they are followed. Where it has none, the fastest joint moves at `PACE`.
+    Where the plan has trajectories they are followed. Where it has none, the fastest joint moves at `llm3.types.PACE`.
 
     Args:
         start: The state in which the first action begins.
@@ -92,14 +90,6 @@ def evenly(frames: Iterable[Frame], rate: float) -> Iterator[Frame]:
 
 def _positions(segment: Segment, rate: float) -> Iterator[tuple[float, tuple[float, ...]]]:
     """Times since the segment began, in seconds, and where the robot is then."""
-    if segment.trajectory:
-        duration = segment.trajectory.duration
-        times = np.linspace(0.0, duration, max(1, round(duration * rate)) + 1)[1:]
-        configurations = segment.trajectory.sample(times)[0]
-    else:
-        waypoints = np.array(segment.waypoints)
-        ways = np.abs(np.diff(waypoints, axis=0)).max(axis=1, initial=0.0) / PACE
-        knots = np.concatenate([[0.0], np.cumsum(ways)])
-        times = np.linspace(0.0, knots[-1], max(1, round(knots[-1] * rate)) + 1)[1:]
-        configurations = np.column_stack([np.interp(times, knots, joint) for joint in waypoints.T])
-    yield from zip(times.tolist(), map(tuple, configurations.tolist()), strict=True)
+    timed = Timed(segment)
+    times = np.linspace(0.0, timed.duration, max(1, round(timed.duration * rate)) + 1)[1:]
+    yield from zip(times.tolist(), map(tuple, timed.positions(times).tolist()), strict=True)

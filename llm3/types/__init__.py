@@ -18,6 +18,7 @@ from llm3.types.events import (
     RunStarted,
     nobody,
 )
+from llm3.types.execution import Executed, Execution, ExecutionReport, Noise, PoseError, Slip
 from llm3.types.failures import ITSELF, Contact, Failure, FailureKind
 from llm3.types.frozen import FrozenDict
 from llm3.types.moments import Moment, moment_of
@@ -35,6 +36,7 @@ from llm3.types.motion import (
     Vector,
     Waypoints,
 )
+from llm3.types.pace import PACE, Timed
 from llm3.types.results import PlannedAction, Result, Stop
 from llm3.types.state import Fact, GoalStatus, Held, Pose, State, Transition
 from llm3.types.stats import Stats
@@ -44,6 +46,7 @@ from llm3.types.verification import Defect, Verification
 __all__ = [
     "GREY",
     "ITSELF",
+    "PACE",
     "Action",
     "ActionSchema",
     "ActionTried",
@@ -60,6 +63,9 @@ __all__ = [
     "Entity",
     "Event",
     "EventKind",
+    "Executed",
+    "Execution",
+    "ExecutionReport",
     "Fact",
     "Failure",
     "FailureKind",
@@ -75,12 +81,14 @@ __all__ = [
     "Motion",
     "MotionProblem",
     "NoMotion",
+    "Noise",
     "Observer",
     "Outcome",
     "Parameter",
     "Path",
     "PlannedAction",
     "Pose",
+    "PoseError",
     "PromptSent",
     "Proposal",
     "Rejected",
@@ -95,10 +103,12 @@ __all__ = [
     "Segment",
     "Shape",
     "Sketch",
+    "Slip",
     "State",
     "Stats",
     "Stop",
     "Surface",
+    "Timed",
     "Trajectory",
     "Transition",
     "Vector",

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_line import install_package
 from docs_pages import DOCS, blocks, page, table
@@ -19,7 +20,7 @@ from llm3.cli.text import printable
 from llm3.scaffold import KINDS, Name, render
 from llm3.testing import Complaint, ScriptedLLM, check_domain
 from llm3.testing.scripted import stand_in_script
-from llm3.types import Motion, Segment
+from llm3.types import Motion, Noise, Segment
 
 TUTORIALS = {
     "domain": "first-domain",
@@ -151,4 +152,8 @@ def test_the_extras_of_a_domain_are_whole_and_the_second_look_sees_what_is_wrong
         "the robot is not where the state says",
     ]
     assert not look(result.start, result.plan[:1]).sound
+    for noise, reached in ((Noise(), True), (Noise(joints=5.0), False)):
+        executor = domain.executor(instance, {}, noise)
+        done = executor.execute(result.start, result.plan, np.random.default_rng(0))
+        assert (env.goal(done.state).achieved, any(action.slips for action in done.actions)) == (reached, not reached)
     assert "near y = " in names["NamedGap"](instance).task

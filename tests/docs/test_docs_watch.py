@@ -5,7 +5,8 @@ import re
 from docs_pages import blocks, names, page, table
 
 from llm3.cli.main import build_parser, main
-from llm3.playback.frames import PACE, STANDSTILL
+from llm3.playback.frames import STANDSTILL
+from llm3.types import PACE
 
 
 def test_the_commands_make_the_film_that_the_page_tells_of(corridor, capsys):

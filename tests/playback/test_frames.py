@@ -9,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from llm3.playback import evenly, frames
-from llm3.playback.frames import PACE, STANDSTILL
+from llm3.playback.frames import STANDSTILL
 from llm3.types import (
+    PACE,
     Action,
     Event,
     EventKind,

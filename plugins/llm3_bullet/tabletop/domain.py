@@ -1,4 +1,4 @@
-"""A domain of worlds around a tabletop: any robot, a stage to show it on, each world made out of the last one."""
+"""A domain of worlds around a tabletop: any robot, a stage, motors, each world made out of the last one."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from abc import abstractmethod
 from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, Any
 
-from llm3.interfaces import Domain, Env, Option, Options, Scenery, Stage
+from llm3.interfaces import Domain, Env, Executor, Option, Options, Scenery, Stage
+from llm3.types import Noise
 
 if TYPE_CHECKING:  # a domain is cheap to make, and what a world needs is not cheap to import
     from llm3_bullet.robot import RobotDescription
@@ -38,7 +39,7 @@ class TabletopDomain(Domain):
 
         return {**options, "robot": in_place(options["robot"])}
 
-    def make(self, instance: Any, options: Options) -> Env:
+    def make(self, instance: Any, options: Options) -> TabletopEnv:
         """A PyBullet world without a window."""
         from llm3_bullet.robots import find_robot
         from llm3_bullet.workcell import Workcell
@@ -73,6 +74,12 @@ class TabletopDomain(Domain):
         robot = find_robot(options["robot"])
         seen = self._seen(robot, instance, options)
         return BulletScenery(RobotModel(robot), seen.boxes, seen.colors, seen.camera)
+
+    def executor(self, instance: Any, options: Options, noise: Noise) -> Executor | None:
+        """A PyBullet world with motors, friction and gravity."""
+        from llm3_bullet.tabletop.executor import TabletopExecutor
+
+        return TabletopExecutor(self.make(instance, options), noise)
 
     def _seen(self, robot: RobotDescription, instance: Any, options: Options) -> Seen:
         from llm3_bullet.tabletop.looks import seen

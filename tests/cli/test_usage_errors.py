@@ -66,12 +66,12 @@ SENTENCES = {
         "--setting and --instance both choose a problem: give one of them."
     ),
     "lst": (
-        "unknown command 'lst'; did you mean 'list'? Known: check, doctor, experiment, export, instance, list, models, "
-        "new, prompt, render, report, results, run, verify."
+        "unknown command 'lst'; did you mean 'list'? Known: check, doctor, execute, experiment, export, instance, "
+        "list, models, new, prompt, render, report, results, run, verify."
     ),
     "--domain corridor list": (
-        "unexpected argument 'list'. A command stands first: run, prompt, experiment, instance, verify, export, "
-        "report, render, results, models, doctor, check, new, list."
+        "unexpected argument 'list'. A command stands first: run, prompt, experiment, instance, verify, execute, "
+        "export, report, render, results, models, doctor, check, new, list."
     ),
     "list --jsn": "unknown flag '--jsn'; did you mean '--json'? Known: --debug, --help, --json, -h.",
     "prompt --domain corridor --llm http": (

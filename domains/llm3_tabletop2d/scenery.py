@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import cos, sin
 
 import numpy as np
 
 from llm3.interfaces import Frame, Scenery
 from llm3.types import Body, Camera, Color, Moment, Pose, Shape, State, color_of, prism_surface
 from llm3_tabletop2d.instance import TabletopInstance
-from llm3_tabletop2d.scene import ROBOT
+from llm3_tabletop2d.scene import ROBOT, turn_of
 from llm3_tabletop2d.top_view import top_view
 
 FLAT, LOW, HIGH = 0.004, 0.05, 0.08
@@ -60,6 +61,6 @@ class TabletopScenery(Scenery):
         frame = np.eye(4)
         frame[:3, 3] = x, y, -height / 2 if name == "room" else height / 2
         if pose:
-            z, w = pose.orientation[2:]
-            frame[:2, :2] = (w * w - z * z, -2 * w * z), (2 * w * z, w * w - z * z)
+            c, s = cos(turn_of(pose)), sin(turn_of(pose))
+            frame[:2, :2] = (c, -s), (s, c)
         return frame

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import sys
+from textwrap import wrap
 
 from rich.console import Console
+from rich.text import Text
 
 from llm3.cli.text import discard
+
+FOLDED = 8
+"""Columns by which the rest of a line stands in."""
 
 
 class ViewConsole(Console):
@@ -19,6 +24,11 @@ class ViewConsole(Console):
             quiet: Write nothing at all.
         """
         super().__init__(stderr=True, quiet=quiet, highlight=False, markup=False, soft_wrap=True)
+
+    def tell(self, text: str, style: str = "") -> None:
+        """Show one line. In a terminal it is folded between words, and what goes on below it stands in a little."""
+        lines = wrap(text, self.width, subsequent_indent=" " * FOLDED) if self.is_terminal else [text]
+        self.print(Text("\n".join(lines), style=style))
 
     @property
     def is_live(self) -> bool:

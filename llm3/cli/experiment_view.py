@@ -7,7 +7,6 @@ from time import monotonic
 from types import TracebackType
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-from rich.text import Text
 
 from llm3.cli.console import ViewConsole
 from llm3.cli.text import printable
@@ -78,7 +77,7 @@ class ExperimentView:
         return ", ".join(parts)
 
     def _line(self, text: str, style: str = "") -> None:
-        self._console.print(Text(printable(text), style=style))
+        self._console.tell(printable(text), style)
 
 
 def duration(seconds: float) -> str:

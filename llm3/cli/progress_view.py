@@ -5,7 +5,6 @@ from __future__ import annotations
 from types import TracebackType
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-from rich.text import Text
 
 from llm3.cli.console import ViewConsole
 from llm3.wording import counted
@@ -34,4 +33,4 @@ class ProgressView:
     ) -> None:
         self._progress.stop()
         if error is None and not self._console.is_live:
-            self._console.print(Text(counted(self._total, self._noun)))
+            self._console.tell(counted(self._total, self._noun))

@@ -67,10 +67,10 @@ class RunView:
             if self._budget is None:
                 self._wait(f"attempt {event.attempt}")
             elif isinstance(event.proposal, Failure):
-                self._line(f"attempt {event.attempt}: {event.proposal.detail}", "red")
+                self._line(f"attempt {event.attempt} of {self._budget}: {event.proposal.detail}", "red")
             else:
                 actions = counted(len(event.proposal.actions), "action")
-                self._line(f"attempt {event.attempt}: a plan of {actions}", "bold")
+                self._line(f"attempt {event.attempt} of {self._budget}: a plan of {actions}", "bold")
                 self._wait(f"attempt {event.attempt} of {self._budget}: trying the plan")
         elif self._budget is None and (isinstance(event, AttemptEnded) or _known(event)):
             return
@@ -114,7 +114,7 @@ class RunView:
             self._line(f"      {note}", "yellow")
 
     def _line(self, text: str, style: str = "") -> None:
-        self._console.print(Text(printable(text, keep_spaces=True), style=style))
+        self._console.tell(printable(text, keep_spaces=True), style)
 
     def _wait(self, text: str) -> None:
         if self._status:

@@ -55,6 +55,7 @@ class BulletScenery(Scenery):
             for box in self._boxes.values()
         )
         self._bodies = (*(link for link in links if link.surfaces), *things)
+        self._shown = {body.name for body in self._bodies}
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -70,7 +71,8 @@ class BulletScenery(Scenery):
         """Where they are; the fingers are open until a motion has told how far they are."""
         model, q = self._kinematics.model, np.array([moment.configuration])
         opening = model.description.gripper.max_opening if moment.opening is None else moment.opening
-        found: dict[str, Frame] = dict(zip(model.links, self._kinematics.link_frames(q, opening)[0], strict=True))
+        links = zip(model.links, self._kinematics.link_frames(q, opening)[0], strict=True)
+        found: dict[str, Frame] = {name: frame for name, frame in links if name in self._shown}
         found.update((name, as_matrix(box.pose)) for name, box in self._boxes.items() if box.fixed)
         found.update((name, as_matrix(pose)) for name, pose in moment.poses.items())
         if moment.held:

@@ -25,10 +25,10 @@ def test_a_solved_run_prints_the_plan_and_tells_the_story_on_stderr(corridor, sc
     *story, summary, record = ended.err.splitlines()
     assert story == [
         "No language model is used: the replies come from a script.",
-        "attempt 1: a plan of 2 actions",
+        "attempt 1 of 20: a plan of 2 actions",
         "   1. go([], {'x': 0.5, 'y': 0.5}): feasible",
         "   2. go([], {'x': 1.0, 'y': 0.9}): goal in collision (wall)",
-        "attempt 2: a plan of 2 actions",
+        "attempt 2 of 20: a plan of 2 actions",
         "   1. go([], {'x': 0.5, 'y': 0.5}): feasible (known)",
         "   2. go([], {'x': 1.9, 'y': 0.5}): feasible",
     ]

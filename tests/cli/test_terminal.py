@@ -56,13 +56,25 @@ def test_a_run_reads_well(cwd, surroundings, terminal):
     assert code == 0
     assert ("\x1b[" in written) == (terminal != "dumb")
     lines = visible(written)
-    assert "attempt 1: a plan of 2 actions" in lines
+    assert "attempt 1 of 20: a plan of 2 actions" in lines
     assert any(re.fullmatch(r" +1\. go\(\[\], \{'x': [0-9.]+, 'y': [0-9.]+\}\): feasible", line) for line in lines)
     record = lines.index("record: here")
     assert lines[record - 1].startswith("solved in ")
     plan = [line for line in lines[record + 1 :] if line]
     assert plan
     assert all(line.startswith("go([], {'x': ") for line in plan)
+
+
+@pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])
+def test_long_lines_are_folded_between_words(cwd, surroundings, script, terminal):
+    words = [f"word-{number}" for number in range(60)]
+    command = llm3(f"--domain corridor --max-llm-calls 1 {script(json.dumps([' '.join(words) + '([], {})']))}")
+    _, written = in_terminal(command, cwd, {**surroundings, "TERM": terminal})
+    lines = visible(written)
+    assert max(map(len, lines)) <= 80
+    folded = [line for line in lines if line.startswith("        ")]
+    assert len(folded) > 3
+    assert set(" ".join(folded[:-1]).split()) <= set(words)
 
 
 @pytest.mark.parametrize("terminal", ["xterm-256color", "dumb"])

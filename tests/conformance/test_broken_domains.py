@@ -6,6 +6,7 @@ import broken_answers
 import broken_changes
 import broken_depots
 import broken_memories
+import broken_sights
 import broken_words
 import pytest
 from depot import Depots
@@ -17,7 +18,12 @@ from llm3 import Registry, Strategy, hookimpl
 from llm3.testing import check_domain
 
 FAULTS = (
-    broken_words.FAULTS | broken_answers.FAULTS | broken_memories.FAULTS | broken_changes.FAULTS | broken_depots.FAULTS
+    broken_words.FAULTS
+    | broken_answers.FAULTS
+    | broken_memories.FAULTS
+    | broken_changes.FAULTS
+    | broken_depots.FAULTS
+    | broken_sights.FAULTS
 )
 
 
@@ -38,7 +44,8 @@ def registry() -> Registry:
 
 
 def test_a_domain_without_a_fault_has_no_complaint():
-    assert check_domain(Yards()) == check_domain(broken_memories.SOUND) == check_domain(Depots()) == ()
+    sound = Yards(), broken_memories.SOUND, Depots(), broken_sights.sound()
+    assert [check_domain(domain) for domain in sound] == [()] * len(sound)
 
 
 def test_a_description_without_numbers_is_no_fault(registry):

@@ -13,6 +13,7 @@ from llm3.testing.conformance import (
     purity_rules,
     schema_rules,
     series_rules,
+    sight_rules,
     state_rules,
     text_rules,
     twin_rules,
@@ -35,7 +36,7 @@ WORLD_RULES = (
     *description_rules.RULES,
     *capability_rules.RULES,
 )
-DEAR_RULES = (capability_rules.the_verifier_tells_good_plans_from_bad,)
+DEAR_RULES = (capability_rules.the_verifier_tells_good_plans_from_bad, *sight_rules.RULES)
 """Looked at in the first problem of each setting only."""
 PURITY_RULES = purity_rules.RULES
 TWIN_RULES = (*twin_rules.RULES, capability_rules.a_remade_world_is_like_a_new_one)

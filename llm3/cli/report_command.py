@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
 from llm3.cli.problem_arguments import path
 from llm3.cli.text import emit, printable
@@ -13,14 +13,16 @@ from llm3.errors import InputError, LLM3Error, OutputExists
 from llm3.experiments import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder
 from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
-from llm3.report import PAGE, Report, experiment_report, recorded_runs, run_report
+
+if TYPE_CHECKING:  # reports need numbers and figures, which take a while to import
+    from llm3.report import Report
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("folder", type=path, metavar="DIR", help="the folder of a run, or of an experiment")
-    add("--out", type=path, metavar="FILE", help=f"the page (default: {PAGE} in DIR, which is overwritten)")
+    add("--out", type=path, metavar="FILE", help="the page (default: report.html in DIR, which is overwritten)")
     add("--force", action="store_true", help="overwrite FILE")
     add(
         "--small",
@@ -32,6 +34,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
+    from llm3.report import PAGE, experiment_report, run_report
+
     folder: Path = arguments.folder
     file: Path = arguments.out or folder / PAGE
     if arguments.out and file.exists() and not arguments.force:
@@ -44,7 +48,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
         report = experiment_report(registry, record, file.parent)
     elif folder.exists() and not (folder / "run.json").exists():
         raise InputError(
-            f"'{folder}' holds neither run.json nor {EXPERIMENT_FILE}: it is no run's and no experiment's."
+            f"'{folder}' holds neither run.json nor {EXPERIMENT_FILE}: it is no folder of a run or an experiment."
         )
     else:
         report = run_report(registry, folder, moving=not arguments.small)
@@ -56,14 +60,19 @@ def run(arguments: Namespace, out: TextIO) -> int:
 
 
 def _write_runs(registry: Registry, record: ExperimentRecord, quiet: bool) -> None:
-    """Write the reports of an experiment's runs that are not there yet."""
+    """Write the reports of an experiment's runs, but for those that are newer than their records."""
     from llm3.cli.progress_view import ProgressView  # rich takes a while to import
+    from llm3.report import PAGE, recorded_runs, run_report
 
-    missing = [folder for folder in recorded_runs(record) if not (folder / PAGE).exists()]
+    missing = [folder for folder in recorded_runs(record) if not _is_newer(folder / PAGE, folder / "run.json")]
     with ProgressView("report", len(missing), quiet) as view:
         for folder in missing:
             _write(run_report(registry, folder, moving=False), folder / PAGE)
             view.advance()
+
+
+def _is_newer(file: Path, other: Path) -> bool:
+    return file.exists() and file.stat().st_mtime_ns >= other.stat().st_mtime_ns
 
 
 def _write(report: Report, file: Path) -> None:

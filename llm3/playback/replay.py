@@ -11,7 +11,6 @@ from math import cos, radians, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from llm3.errors import MissingDependency
 from llm3.interfaces import Frame as Place
@@ -131,6 +130,8 @@ class _Scene:
 
     def place(self, places: Mapping[str, Place]) -> None:
         """Move what has moved."""
+        from scipy.spatial.transform import Rotation
+
         for name, surfaces in self._surfaces.items():
             place, before = places.get(name), self._places.get(name)
             if place is not None and before is not None and np.array_equal(place, before):

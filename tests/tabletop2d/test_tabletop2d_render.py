@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -159,6 +161,18 @@ def test_an_mp4_is_ffmpegs_to_write(rendered, ffmpeg, cwd):
     rendered("--out film.gif")
     assert rendered("--out film.mp4").out == "film.mp4\n"
     assert float((cwd / "film.mp4").read_text()) == len(pictures(cwd / "film.gif"))
+
+
+@pytest.mark.slow
+def test_an_mp4_of_the_real_ffmpeg_holds_every_picture(rendered, cwd):
+    assert shutil.which("ffprobe"), "no ffprobe on the path: apt-get install ffmpeg"
+    rendered("--out film.gif")
+    assert rendered("--out film.mp4").err == ""
+    count = (
+        "ffprobe -v error -count_frames -select_streams v:0 -show_entries stream=nb_read_frames -of csv=p=0 film.mp4"
+    )
+    told = subprocess.run(count.split(), capture_output=True, text=True, check=True, timeout=60).stdout
+    assert int(told.strip().strip(",")) == len(pictures(cwd / "film.gif"))
 
 
 def test_what_ffmpeg_says_is_told(rendered, ffmpeg, cwd):

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from llm3.errors import MissingCapability
-from llm3.interfaces import Domain, Frame, Options, Scenery
+from llm3.interfaces import Domain, Options, Scenery
 from llm3.playback.from_above import seen_from_above
-from llm3.types import Body, Moment, Shape, State
+from llm3.types import Body, Color, Moment, Shape, State
 
 View = Callable[[Moment], tuple[Shape, ...]]
 """The outlines of what there is at a moment, seen from above, what lies on top last."""
@@ -38,28 +38,35 @@ def open_view(domain: Domain, instance: Any, options: Options, start: State, sce
 
 
 def projection(scenery: Scenery) -> View:
-    """Bodies as their shadows at noon, the robot's on top: the convex outline of each.
+    """Bodies as their shadows at noon, the robot's on top.
+
+    Shadows are convex: that of each link of the robot, and that of each surface of other bodies.
 
     Args:
         scenery: Where the bodies come from.
     """
-    points = {body.name: _outermost(np.vstack([s.corners for s in body.surfaces])) for body in scenery.bodies}
+    parts = [(body, _outermost(points), color) for body in scenery.bodies for points, color in _parts(body)]
 
     def view(moment: Moment) -> tuple[Shape, ...]:
         places = scenery.places(moment)
         seen = []
-        for body in scenery.bodies:
+        for body, points, color in parts:
             if body.name in places:
-                where = points[body.name] @ places[body.name][:3, :3].T + places[body.name][:3, 3]
-                seen.append((body.kind == "robot", float(where[:, 2].max()), _shadow(body, where)))
+                where = points @ places[body.name][:3, :3].T + places[body.name][:3, 3]
+                is_robot, is_fixed = body.kind == "robot", body.kind == "fixed"
+                corners: tuple[tuple[float, float], ...] = tuple(map(tuple, _convex(where[:, :2]).tolist()))
+                seen.append((is_robot, float(where[:, 2].max()), Shape(body.name, corners, is_fixed, color, is_robot)))
         return tuple(shape for *_, shape in sorted(seen, key=lambda item: item[:2]))
 
     return view
 
 
-def _shadow(body: Body, points: Frame) -> Shape:
-    corners: tuple[tuple[float, float], ...] = tuple(map(tuple, _convex(points[:, :2]).tolist()))
-    return Shape(body.name, corners, body.kind == "fixed", body.surfaces[0].color, body.kind == "robot")
+def _parts(body: Body) -> Iterator[tuple[NDArray[np.float64], Color]]:
+    """The points, shape (N, 3), and the colour of each part that has a shadow of its own."""
+    if body.kind == "robot":  # whose links have many surfaces each
+        yield np.vstack([surface.corners for surface in body.surfaces]), body.surfaces[0].color
+    else:
+        yield from ((surface.corners, surface.color) for surface in body.surfaces)
 
 
 def _convex(points: NDArray[np.float64]) -> NDArray[np.float64]:

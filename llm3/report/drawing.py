@@ -64,6 +64,11 @@ class Drawing:
     """Where they touch, in millimetres."""
 
     @property
+    def labels(self) -> tuple[Polygon, ...]:
+        """What bears its name, each thing once: all that can be moved."""
+        return tuple({polygon.name: polygon for polygon in self.polygons if polygon.kind == "object"}.values())
+
+    @property
     def text_size(self) -> float:
         """In millimetres."""
         return 1000 * 0.035 * max(self.window.width, self.window.height)

@@ -48,6 +48,11 @@ class Body:
     kind: Literal["robot", "object", "fixed"] = "object"
     """A link of the robot, something that can be moved, or something that never is."""
 
+    def __post_init__(self) -> None:
+        if not self.surfaces:
+            raise ValueError(f"body {self.name!r} needs at least one surface: leave out what cannot be seen")
+        object.__setattr__(self, "surfaces", tuple(self.surfaces))
+
 
 def box_surface(size: Iterable[float], color: Color = GREY) -> Surface:
     """A box around the origin.

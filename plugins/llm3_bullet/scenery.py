@@ -49,12 +49,12 @@ class BulletScenery(Scenery):
         self._kinematics, self._camera = Kinematics(model), camera
         self._boxes = {box.name: box for box in boxes}
         looks = _looks(model.description)
-        links = (Body(name, tuple(looks.get(name, ())), "robot") for name in model.links)
+        links = (Body(name, tuple(looks[name]), "robot") for name in model.links if name in looks)
         things = (
             Body(box.name, (box_surface(box.size, colors.get(box.name, GREY)),), "fixed" if box.fixed else "object")
             for box in self._boxes.values()
         )
-        self._bodies = (*(link for link in links if link.surfaces), *things)
+        self._bodies = (*links, *things)
         self._shown = {body.name for body in self._bodies}
 
     @property

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from llm3.types import Surface, box_surface, prism_surface
+from llm3.types import Body, Surface, box_surface, prism_surface
 
 sides = st.floats(0.01, 3)
 
@@ -59,3 +59,8 @@ def test_what_makes_no_surface_is_refused(parts, sentence):
     with pytest.raises(ValueError) as error:
         Surface(*parts)
     assert str(error.value) == sentence
+
+
+def test_a_body_can_be_seen():
+    with pytest.raises(ValueError, match="body 'ghost' needs at least one surface: leave out what cannot be seen"):
+        Body("ghost", ())

@@ -71,3 +71,11 @@ def test_what_is_higher_lies_on_top_and_the_robot_above_all():
 def test_what_is_not_there_has_no_shadow():
     box = Body("box", (box_surface((0.1, 0.1, 0.1)),))
     assert projection(Bodies((box, None)))(Moment()) == ()
+
+
+def test_two_pieces_of_a_wall_leave_the_gap_between_them_open():
+    box = box_surface((0.1, 0.4, 0.1))
+    pieces = tuple(Surface(box.corners + np.array((0, y, 0)), box.triangles) for y in (-0.5, 0.5))
+    shapes = projection(Bodies((Body("wall", pieces, "fixed"), np.eye(4))))(Moment())
+    assert [shape.name for shape in shapes] == ["wall", "wall"]
+    assert sum(map(area, shapes)) == pytest.approx(2 * 0.1 * 0.4)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from reported import read_page, record
 
@@ -32,7 +34,7 @@ def check(folder):
         marked = {polygon.attributes["data-name"] for polygon in drawing.classed("touching")}
         failure = turn.failed.outcome.failure
         assert marked == named(turn), f"attempt {turn.number} of {folder}"
-        assert not failure.contacts or failure.objects[0] in marked, f"attempt {turn.number} of {folder}"
+        assert not failure.contacts or set(failure.objects[:1]) <= marked, f"attempt {turn.number} of {folder}"
         touching += bool(failure.contacts)
     return touching
 
@@ -49,17 +51,18 @@ def test_what_touches_is_marked_around_an_arm(tmp_path):
 @pytest.mark.slow
 @pytest.mark.pybullet
 def test_what_touches_is_marked_in_every_failed_attempt_of_fifty_runs(tmp_path):
-    families = [
-        ("boxpack", "hard-small", 14),
-        ("boxpack", "hard-medium", 8),
-        ("boxpack", "hard-large", 8),
-        ("blocks", "blocks-4", 5),
-        ("kitchen", "kitchen-4", 5),
-        ("tabletop2d", "clutter", 10),
+    families = [  # a planner that hardly searches fails between free ends, too
+        (RunConfig("boxpack", "hard-small", llm="random"), 10),
+        (RunConfig("boxpack", "hard-medium", llm="random"), 6),
+        (RunConfig("boxpack", "hard-large", llm="random"), 6),
+        (RunConfig("boxpack", "hard-small", llm="random", planner_iterations=1, options={"walls": "0.2"}), 6),
+        (RunConfig("blocks", "blocks-5"), 6),
+        (RunConfig("kitchen", "kitchen-4"), 6),
+        (RunConfig("tabletop2d", "clutter", llm="random"), 10),
     ]
     runs = [
-        record(tmp_path / f"{setting}-{seed}", RunConfig(domain, setting, seed, llm="random", timing="none"))
-        for domain, setting, count in families
+        record(tmp_path / f"{number}-{seed}", replace(config, seed=seed, timing="none"))
+        for number, (config, count) in enumerate(families)
         for seed in range(count)
     ]
     assert len(runs) == 50

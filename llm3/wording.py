@@ -8,6 +8,7 @@ from llm3.types import Contact, Failure, FrozenDict
 
 ENDINGS: Mapping[str, str] = FrozenDict(
     {
+        "calls": "the budget of model calls is used up",
         "tokens": "the budget of tokens is used up",
         "seconds": "the budget of seconds is used up",
         "motions": "the budget of motion calls is used up",

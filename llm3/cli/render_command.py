@@ -62,7 +62,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
         raise OutputExists(f"'{file}' exists: give another --out, or --force.")
     played = read_played(Registry.discover(), arguments.plan, arguments.attempt)
     if file.suffix.lower() == PAGE:
-        _write_page(played, file)
+        _write_page(played, file, arguments.attempt)
         emit(f"{file}\n", out)
         return 0
     stage = open_stage(played.domain, played.instance, played.options, played.start, "llm3 render")
@@ -80,10 +80,11 @@ def run(arguments: Namespace, out: TextIO) -> int:
     return 0
 
 
-def _write_page(played: Played, file: Path) -> None:
+def _write_page(played: Played, file: Path, attempt: int | None) -> None:
     scenery = open_scenery(played.domain, played.instance, played.options, "a page")
     moments = (frame.moment for frame in frames(played.start, played.steps, SMOOTH))
-    page = replay_page(f"{played.domain.name} in three dimensions", scenery, [Chapter("The plan", moments)])
+    title = "The plan" if attempt is None else f"Attempt {attempt}"
+    page = replay_page(f"{played.domain.name} in three dimensions", scenery, [Chapter(title, moments)])
     try:
         write_whole(file, page)
     except OSError as error:

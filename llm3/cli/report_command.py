@@ -36,7 +36,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     from llm3.report import PAGE, experiment_report, run_report
 
-    folder: Path = arguments.folder
+    folder: Path = arguments.folder.parent if arguments.folder.is_file() else arguments.folder
     file: Path = arguments.out or folder / PAGE
     if arguments.out and file.exists() and not arguments.force:
         raise OutputExists(f"'{file}' exists: give another --out, or --force.")

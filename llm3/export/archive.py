@@ -8,6 +8,7 @@ import warnings
 import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,9 @@ from numpy.typing import NDArray
 
 MOST_BYTES = 256 * 2**20
 """Of all arrays together: an archive of some kilobytes may be blown up to anything."""
+
+LAST = 0x10FFFF
+"""The number of the last character that there is."""
 
 
 def packed(arrays: Mapping[str, NDArray[Any]]) -> bytes:
@@ -64,15 +68,15 @@ def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> NDArray[Any]:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # numpy warns of headers that it has to guess at
             shape, by_column, dtype = npy.read_array_header_1_0(stream)
-        if dtype.hasobject or dtype.kind not in "Uif":
+        if dtype.hasobject or dtype.kind not in "Uif" or not dtype.itemsize:
             raise ValueError(f"the dtype {dtype}, and texts and numbers are read")
         rest = stream.read()
         if any(side < 0 for side in shape) or math.prod(shape) * dtype.itemsize != len(rest):
             raise ValueError(f"{len(rest)} bytes, and the shape {shape} of {dtype} needs others")
-        if not dtype.itemsize:  # numpy cannot make these of bytes
-            return np.zeros(shape, dtype)
+        if dtype.kind == "U" and (np.frombuffer(rest, np.dtype("u4").newbyteorder(dtype.byteorder)) > LAST).any():
+            raise ValueError("a text holds what is no character")
         return np.frombuffer(rest, dtype).reshape(shape, order="F" if by_column else "C")
-    except Warning as error:
+    except (Warning, TokenError) as error:
         raise ValueError(f"{member.filename}: its header is not as numpy writes it") from error
     except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError, OverflowError) as error:
         raise ValueError(f"{member.filename}: {error}") from error

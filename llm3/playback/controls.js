@@ -1,17 +1,22 @@
 // Plays the replay that this page holds, for keyboards, screen readers, and the page around it.
 //
-// viser's player has the buttons but no names for them. This gives them names, starts at a standstill, adds a button for
-// each chapter, and obeys messages: {chapter: its number from 0}, also one that comes before the player is there, as
-// browsers let a frame wait that nobody sees yet.
+// viser's player has the buttons but no names for them, and one timeline. This gives them names, starts at a standstill,
+// adds a choice of chapters, stops at the end of each, and obeys messages: {chapter: its number from 0}, also one that
+// comes before the player is there, as browsers let a frame wait that nobody sees yet.
 "use strict";
+
+const NEARLY = 0.1;  // seconds, to which the player rounds what is sought
+let current = 0;  // the chapter
+let ready = null;  // the controls, once there are any
 
 function player() {
   const time = document.querySelector("input[inputmode=decimal]");
   const bar = time && time.closest(".mantine-Paper-root");
   const button = bar && bar.querySelector("button");
   const slider = bar && bar.querySelector("[role=slider]");
+  const exact = slider && bar.querySelector("input[type=hidden]");
   const canvas = document.querySelector("canvas[data-engine]");
-  return canvas && button && slider ? { time, bar, button, slider, canvas } : null;
+  return canvas && button && exact ? { time, bar, button, slider, exact, canvas } : null;
 }
 
 function isPlaying({ button }) {
@@ -29,58 +34,89 @@ function seek({ time }, seconds) {
   time.blur();
 }
 
-function show(controls, chapter) {
+function show(controls, number) {
+  current = number;
   play(controls, false);
-  seek(controls, chapter.time);
+  seek(controls, CHAPTERS[number].time);
+  tell(controls);
 }
 
-function name(controls) {
-  const label = isPlaying(controls) ? "Pause" : "Play";
-  if (controls.button.getAttribute("aria-label") === label) return;
-  controls.button.setAttribute("aria-label", label);
-  controls.button.title = label;
+function tell({ choice, note }) {
+  choice.value = String(current);
+  note.textContent = CHAPTERS[current].note;
 }
 
-function addChapters(controls) {
-  const list = document.createElement("nav");
-  list.className = "chapters";
-  list.setAttribute("aria-label", "Chapters");
-  for (const chapter of CHAPTERS) {
-    const button = document.createElement("button");
-    button.type = "button";
-    button.textContent = chapter.title;
-    button.addEventListener("click", () => show(controls, chapter));
-    list.append(button);
+function name({ button, ...controls }) {
+  const label = isPlaying({ button }) ? "Pause" : "Play";
+  if (button.getAttribute("aria-label") === label) return;
+  button.setAttribute("aria-label", label);
+  button.title = label;
+  // At the end of a chapter it is the chapter that begins again.
+  if (label === "Pause" && Number(controls.exact.value) > CHAPTERS[current].end - NEARLY) {
+    play({ button }, false);
+    seek(controls, CHAPTERS[current].time);
+    setTimeout(() => play({ button }, true), 100);
   }
-  controls.bar.before(list);
+}
+
+function chapters() {
+  const row = document.createElement("div");
+  row.className = "chapters";
+  row.innerHTML = '<label>Chapter <select></select></label><p role="status"></p>';
+  const choice = row.querySelector("select");
+  CHAPTERS.forEach(({ title }, number) => choice.add(new Option(title, String(number))));
+  row.hidden = CHAPTERS.length === 1;
+  return { row, choice, note: row.querySelector("p") };
+}
+
+function watch(controls) {
+  const now = Number(controls.exact.value);
+  if (isPlaying(controls)) {
+    if (now >= CHAPTERS[current].end) {
+      play(controls, false);
+      seek(controls, CHAPTERS[current].end);
+    }
+  } else {  // whoever drags the slider may be in another one
+    const there = CHAPTERS.findLastIndex(({ time }) => time <= now + NEARLY);
+    if (there >= 0 && there !== current && now > CHAPTERS[there].time + NEARLY) {
+      current = there;
+      tell(controls);
+    }
+  }
 }
 
 function begin(controls) {
-  show(controls, wanted);
+  const heading = document.createElement("h1");
+  heading.textContent = document.title;
+  document.getElementById("root").setAttribute("role", "main");
+  controls.bar.before(heading, controls.row);
+  controls.choice.addEventListener("change", () => show(controls, Number(controls.choice.value)));
   controls.time.setAttribute("aria-label", "Time in seconds");
   controls.slider.setAttribute("aria-label", "Time");
   const speed = controls.bar.querySelector("[role=combobox]");
   if (speed) speed.setAttribute("aria-label", "Speed");
+  for (const button of document.querySelectorAll("[role=alert] button:not([aria-label])")) {
+    button.setAttribute("aria-label", "Close");
+  }
   controls.canvas.setAttribute("role", "img");
   controls.canvas.setAttribute("aria-label", document.title);
+  show(controls, current);
   name(controls);
   new MutationObserver(() => name(controls)).observe(controls.button, { childList: true, subtree: true });
-  if (CHAPTERS.length > 1) addChapters(controls);
+  setInterval(() => watch(controls), 50);  // not with every frame: a page that stands still should cost nothing
   document.documentElement.dataset.ready = "yes";
 }
 
-let wanted = CHAPTERS[0];
-let ready = null;  // the controls, once there are any
-
 window.addEventListener("message", ({ data }) => {
   if (!data || !CHAPTERS[data.chapter]) return;
-  wanted = CHAPTERS[data.chapter];
-  if (ready) show(ready, wanted);
+  current = data.chapter;
+  if (ready) show(ready, current);
 });
 
 const waiting = setInterval(() => {
-  ready = player();
-  if (!ready) return;
+  const found = player();
+  if (!found) return;
   clearInterval(waiting);
+  ready = { ...found, ...chapters() };
   begin(ready);
 }, 50);

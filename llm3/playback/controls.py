@@ -11,15 +11,18 @@ from llm3.jsonio import dumps
 
 
 @dataclass(frozen=True)
-class Beginning:
-    """Where a chapter begins."""
+class Mark:
+    """Where a chapter is in a replay."""
 
     title: str
+    note: str
+    """What to say while it is shown."""
     time: float
-    """In seconds from the start of the replay."""
+    """Of its beginning, in seconds from the start of the replay."""
+    end: float
 
 
-def with_controls(page: str, title: str, chapters: Sequence[Beginning]) -> str:
+def with_controls(page: str, title: str, chapters: Sequence[Mark]) -> str:
     """A page that viser exported, with a title, and `controls.js`, which does the rest.
 
     Args:

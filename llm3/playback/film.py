@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import subprocess
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from importlib.util import find_spec
 from itertools import chain
 from pathlib import Path
@@ -67,7 +68,8 @@ def write_film(pictures: Iterable[Picture], file: Path, rate: float) -> None:
     except OSError as error:
         raise _unwritten(file, error) from error
     finally:
-        beside.unlink(missing_ok=True)
+        with suppress(OSError):  # where nothing can be written, nothing can be left
+            beside.unlink(missing_ok=True)
 
 
 def _write_gif(pictures: Iterator[Picture], file: Path, rate: float) -> None:

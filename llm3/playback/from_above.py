@@ -1,7 +1,8 @@
-"""Pictures of a domain that can say what is seen from above, and has no stage of its own."""
+"""Pictures of what is seen from above, for domains that have no stage of their own."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib.util import find_spec
 from typing import Any
 
@@ -12,6 +13,8 @@ from llm3.guarded import guarded
 from llm3.interfaces import Domain, Options, Picture, Stage
 from llm3.types import Moment, Shape, State, color_of
 
+View = Callable[[Moment], tuple[Shape, ...]]
+"""The outlines of what there is at a moment, seen from above, what lies on top last."""
 BACKGROUND, EDGE = (255, 255, 255), (40, 40, 40)
 MARGIN = 0.04
 """Around what is shown, as a part of the picture's smaller side."""
@@ -33,22 +36,22 @@ def seen_from_above(domain: Domain, instance: Any, options: Options, state: Stat
 
 
 class FromAbove(Stage):
-    """Draws the outlines of `Domain.top_view` with Pillow."""
+    """Draws outlines with Pillow."""
 
-    def __init__(self, domain: Domain, instance: Any, options: Options) -> None:
-        """Bind a domain that has a top view.
+    def __init__(self, view: View) -> None:
+        """Take what answers the outlines of a moment, what lies on top last.
 
         Raises:
             MissingDependency: Pillow is not installed.
         """
         if find_spec("PIL") is None:
             raise MissingDependency("pictures need Pillow, which is not installed: pip install 'llm3[viz]'.")
-        self._view = domain, instance, options
+        self._view = view
         self._shapes: tuple[Shape, ...] = ()
 
     def show(self, moment: Moment) -> None:
         """Remember the outlines."""
-        self._shapes = seen_from_above(*self._view, moment.state) or ()
+        self._shapes = self._view(moment)
 
     def picture(self, width: int, height: int) -> Picture:
         """The outlines, as large as the picture allows; what is fixed decides what is in it, if anything is."""

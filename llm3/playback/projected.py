@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -10,11 +10,8 @@ from numpy.typing import NDArray
 
 from llm3.errors import MissingCapability
 from llm3.interfaces import Domain, Options, Scenery
-from llm3.playback.from_above import seen_from_above
+from llm3.playback.from_above import View, seen_from_above
 from llm3.types import Body, Color, Moment, Shape, State
-
-View = Callable[[Moment], tuple[Shape, ...]]
-"""The outlines of what there is at a moment, seen from above, what lies on top last."""
 
 
 def open_view(domain: Domain, instance: Any, options: Options, start: State, scenery: Scenery | None) -> View:

@@ -15,8 +15,8 @@ import numpy as np
 from llm3.errors import MissingDependency
 from llm3.interfaces import Frame as Place
 from llm3.interfaces import Scenery
-from llm3.playback.controls import Beginning, with_controls
-from llm3.playback.evidence import Touch, touching
+from llm3.playback.controls import Mark, with_controls
+from llm3.playback.evidence import Touch, told, touching
 from llm3.types import Body, Camera, Color, Moment
 
 if TYPE_CHECKING:
@@ -28,6 +28,8 @@ DOT = 0.012
 """The radius in metres of the dot where it touches."""
 FIELD_OF_VIEW = 45.0
 """Degrees from the upper edge to the lower one, as in PyBullet's pictures."""
+BACK = 1.2
+"""How many times as far away one looks from, as the window may be wide and low."""
 PAUSE = 0.5
 """Seconds between two chapters."""
 SURELY = 0.1
@@ -61,24 +63,25 @@ def replay_page(title: str, scenery: Scenery, chapters: Iterable[Chapter]) -> st
     """
     if find_spec("viser") is None:
         raise MissingDependency("a replay needs viser, which is not installed: pip install 'llm3[viz]'.")
-    beginnings: list[Beginning] = []
+    marks: list[Mark] = []
     now = 0.0
     with _server() as server:
         scene = _Scene(server, scenery)
         recording = server.get_scene_serializer()
         for chapter in chapters:
-            if beginnings:
+            if marks:
                 recording.insert_sleep(PAUSE)
                 now += PAUSE
             began = now
-            beginnings.append(Beginning(chapter.title, round(began + SURELY, 2)))
             scene.mark(chapter.touches)
             for seconds, moment in _since_the_first(chapter.moments):
                 recording.insert_sleep(began + seconds - now)
                 now = began + seconds
                 scene.place(scenery.places(moment))
+            begin, end = round(began + SURELY, 2), round(now + SURELY, 2)
+            marks.append(Mark(chapter.title, "; ".join(map(told, chapter.touches)), begin, end))
         recording.insert_sleep(PAUSE)
-        return with_controls(recording.as_html(), title, beginnings)
+        return with_controls(recording.as_html(), title, marks)
 
 
 def _since_the_first(moments: Iterable[Moment]) -> Iterator[tuple[float, Moment]]:
@@ -162,7 +165,7 @@ class _Scene:
 def _look(server: ViserServer, camera: Camera) -> None:
     """Look from where pictures are taken."""
     yaw, pitch = radians(camera.yaw), radians(camera.pitch)
-    away = np.array((sin(yaw) * cos(pitch), -cos(yaw) * cos(pitch), -sin(pitch))) * camera.distance
+    away = np.array((sin(yaw) * cos(pitch), -cos(yaw) * cos(pitch), -sin(pitch))) * camera.distance * BACK
     server.initial_camera.position = tuple(np.array(camera.target) + away)
     server.initial_camera.look_at = camera.target
     server.initial_camera.up = (0.0, 0.0, 1.0)

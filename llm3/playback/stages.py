@@ -8,6 +8,7 @@ from llm3.errors import MissingCapability
 from llm3.guarded import guarded
 from llm3.interfaces import Domain, Options, Scenery, Stage
 from llm3.playback.from_above import FromAbove, seen_from_above
+from llm3.playback.projected import open_view, projection
 from llm3.types import State
 
 
@@ -37,7 +38,7 @@ def open_scenery(domain: Domain, instance: Any, options: Options, needed_for: st
 
 
 def open_stage(domain: Domain, instance: Any, options: Options, start: State, needed_for: str) -> Stage:
-    """Where pictures are made: the domain's own stage, or a drawing of what it shows from above.
+    """Where pictures are made: the domain's own stage, or a drawing of what is seen from above.
 
     Args:
         domain: What the instance is of.
@@ -47,11 +48,14 @@ def open_stage(domain: Domain, instance: Any, options: Options, start: State, ne
         needed_for: Who needs it, for the error.
 
     Raises:
-        MissingCapability: The domain has neither.
+        MissingCapability: Nothing of the domain can be seen.
     """
     stage = guarded(domain.stage, (Stage, type(None)), instance, options, False)
     if stage is not None:
         return stage
-    if seen_from_above(domain, instance, options, start) is None:
-        raise MissingCapability(domain.name, "stage and no top view", needed_for)
-    return FromAbove(domain, instance, options)
+    if seen_from_above(domain, instance, options, start) is not None:
+        return FromAbove(open_view(domain, instance, options, start, None))
+    scenery = guarded(domain.scenery, (Scenery, type(None)), instance, options)
+    if scenery is None:
+        raise MissingCapability(domain.name, "stage, no top view and no scenery", needed_for)
+    return FromAbove(projection(scenery))

@@ -66,7 +66,7 @@ def read_plan(path: Path) -> PlanFile:
         if not path.exists() and not path.with_name("run.json").exists():
             raise InputError(f"{path.parent} holds neither plan.json nor run.json: it is no folder of a run.")
         if not path.exists():
-            raise InputError(f"{path.parent} holds no plan.json: the run was not solved.")
+            raise InputError(f"{path.parent} holds no plan.json: the run was not solved, or has not ended.")
     try:
         return read_file(path, PlanFile)
     except InputError:

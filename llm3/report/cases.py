@@ -57,9 +57,19 @@ def case_drawing(case: Case, window: Window | None, sights: Sights) -> Drawing |
     """An attempt from above: where it failed, with what touches marked, or where it led."""
     if sights.view is None or window is None or case.moment is None:
         return None
-    number, found = case.turn.number, case.evidence
+    shapes, found = sights.view(case.moment), case.evidence
+    title = f"Attempt {case.turn.number}, seen from above: {_what_is_seen(case)}."
     if found is None:
-        return drawing(f"Attempt {number}, seen from above: where it led.", window, sights.view(case.moment))
-    title = f"Attempt {number}, seen from above: where action {len(case.turn.tried)} failed."
-    shapes, names = sights.view(case.moment), touching(found.touches)
-    return drawing(title, nearer(window, shapes, names) if names else window, shapes, found.touches)
+        return drawing(title, window, shapes)
+    names = touching(found.touches)
+    close = nearer(window, shapes, names) if names else window
+    return drawing(title, close, shapes, found.touches, found.failure.objects)
+
+
+def _what_is_seen(case: Case) -> str:
+    if case.evidence is None:
+        return "where it led"
+    number = len(case.turn.tried)
+    if case.evidence.touches:
+        return f"what touches where action {number} failed"
+    return f"where action {number} should have led" if case.is_placed else f"before action {number}, which failed"

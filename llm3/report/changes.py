@@ -12,6 +12,9 @@ from llm3.types import Message
 CONTEXT = 1
 """How many lines that stayed are shown around those that changed."""
 
+MANY = 2000
+"""Lines of two prompts that are more than can be compared in full."""
+
 
 @dataclass(frozen=True)
 class Line:
@@ -29,7 +32,8 @@ def changes(before: Sequence[Message], after: Sequence[Message]) -> Iterator[Lin
         after: This one.
     """
     old, new = list(_lines(before)), list(_lines(after))
-    matcher = SequenceMatcher(None, old, new, autojunk=False)
+    many = len(old) + len(new) > MANY  # where lines that repeat are taken for no match, which is coarser, and not slow
+    matcher = SequenceMatcher(None, old, new, autojunk=many)
     if matcher.ratio() == 1:
         return
     for number, group in enumerate(matcher.get_grouped_opcodes(CONTEXT)):

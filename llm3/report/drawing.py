@@ -60,6 +60,8 @@ class Drawing:
     polygons: tuple[Polygon, ...]
     marked: tuple[Polygon, ...] = ()
     """Those of them that touch something."""
+    blamed: tuple[Polygon, ...] = ()
+    """Those of them that are to blame, and touch nothing yet."""
     dots: tuple[tuple[float, float], ...] = ()
     """Where they touch, in millimetres."""
 
@@ -107,7 +109,13 @@ def nearer(window: Window, shapes: Sequence[Shape], names: Container[str]) -> Wi
     return Window(float(middle[0]) - width / 2, float(middle[1]) - height / 2, width, height)
 
 
-def drawing(title: str, window: Window, shapes: Sequence[Shape], touches: Sequence[Touch] = ()) -> Drawing:
+def drawing(
+    title: str,
+    window: Window,
+    shapes: Sequence[Shape],
+    touches: Sequence[Touch] = (),
+    to_blame: Container[str] = (),
+) -> Drawing:
     """Draw outlines, and mark what touches.
 
     Args:
@@ -115,12 +123,14 @@ def drawing(title: str, window: Window, shapes: Sequence[Shape], touches: Sequen
         window: What of it is in the picture.
         shapes: What lies on top last.
         touches: What touches what.
+        to_blame: The names of what else is to blame.
     """
     names = touching(touches)
     polygons = tuple(map(_polygon, shapes))
     marked = tuple(polygon for polygon in polygons if polygon.name in names)
     points = (touch.contact.point for touch in touches if touch.contact.point)
-    return Drawing(title, window, polygons, marked, tuple((1000 * p[0], -1000 * p[1]) for p in points))
+    blamed = tuple(polygon for polygon in polygons if polygon.name in to_blame and polygon.name not in names)
+    return Drawing(title, window, polygons, marked, blamed, tuple((1000 * p[0], -1000 * p[1]) for p in points))
 
 
 def _area(shape: Shape) -> float:

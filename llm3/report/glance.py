@@ -34,7 +34,7 @@ def asked(story: Story) -> Iterator[Fact]:
 
 def spent(story: Story) -> Iterator[Fact]:
     """What it took, and why it ended."""
-    run, stats = story.run, story.run.stats
+    run, stats, seconds = story.run, story.stats, story.seconds
     yield Fact("Attempts", f"{len(story.turns):,}")
     yield Fact("Model calls", f"{stats.llm_calls:,}")
     if stats.tokens:
@@ -44,8 +44,8 @@ def spent(story: Story) -> Iterator[Fact]:
     yield Fact("Motion calls", f"{stats.motion_calls:,}; {counted(stats.reused_actions, 'action')} known before")
     yield Fact("Inverse kinematics", counted(stats.ik_calls, "call"))
     yield Fact("Configurations tested", f"{stats.validity_checks:,}")
-    yield Fact("Time", f"{run.seconds:.1f} s")
-    yield from (Fact(f"Time, {phase}", f"{seconds:.2f} s") for phase, seconds in stats.seconds.items())
+    yield Fact("Time", f"{seconds:.1f} s")
+    yield from (Fact(f"Time, {phase}", f"{taken:.2f} s") for phase, taken in stats.seconds.items())
     if run.stop in ENDINGS:
         yield Fact("Ended", ENDINGS[run.stop])
     if run.error:

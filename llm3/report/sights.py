@@ -45,6 +45,10 @@ class Sights:
             self.stage.close()
 
 
+UNSEEN = Sights(None, None, None, ())
+"""Of a run that was cut off before it began."""
+
+
 def open_sights(domain: Domain, instance: Any, options: Options, start: State, pictures: bool) -> Sights:
     """Everything that can be seen of a problem.
 

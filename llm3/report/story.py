@@ -26,6 +26,7 @@ from llm3.types import (
     RunEvent,
     RunStarted,
     State,
+    Stats,
 )
 
 
@@ -69,10 +70,22 @@ class Story:
     """A recorded run."""
 
     run: RunFile
-    start: State
+    start: State | None
+    """None of a run that was cut off before it began."""
     turns: tuple[Turn, ...]
     result: Result | None
     """None of a run that did not end."""
+
+    @property
+    def stats(self) -> Stats:
+        """What it cost; of a run that goes on, by the end of its last attempt."""
+        spent = [turn.ended.stats for turn in self.turns if turn.ended]
+        return spent[-1] if self.run.status == "running" and spent else self.run.stats
+
+    @property
+    def seconds(self) -> float:
+        """How long it took; of a run that goes on, until the last that is known of it."""
+        return self.turns[-1].time if self.run.status == "running" and self.turns else self.run.seconds
 
     @property
     def steps(self) -> tuple[PlannedAction, ...]:
@@ -90,7 +103,7 @@ def read_story(folder: Path) -> Story:
     """
     run = read_run(folder)
     events = [(recorded.time, recorded.event) for recorded in read_events(folder)]
-    start = next((event.state for _, event in events if isinstance(event, RunStarted)), State())
+    start = next((event.state for _, event in events if isinstance(event, RunStarted)), None)
     result = next((event.result for _, event in events if isinstance(event, RunEnded)), None)
     return Story(run, start, tuple(_turns(events)), result)
 

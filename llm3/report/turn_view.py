@@ -9,7 +9,7 @@ from llm3.report.cases import Case
 from llm3.report.changes import Line, changes
 from llm3.report.drawing import Drawing
 from llm3.report.story import Turn
-from llm3.types import Failure, Message, Proposal
+from llm3.types import Failure, Feedback, Proposal
 from llm3.wording import contact_in_words, failure_in_words
 
 
@@ -39,19 +39,14 @@ class TurnView:
     unmet: tuple[str, ...]
     repairs: tuple[str, ...]
     """What it took to get and to read the answer."""
-    told: str
-    """What the model is told of the attempt as a whole."""
+    told: tuple[str, ...]
+    """What the model is told of what failed, and of the attempt as a whole."""
     changes: tuple[Line, ...]
     """In the prompt, since the last attempt."""
     drawing: Drawing | None
     contacts: tuple[str, ...]
     chapter: int | None
     """Where the replay shows how it failed."""
-
-    @property
-    def messages(self) -> tuple[Message, ...]:
-        """The whole prompt."""
-        return self.turn.messages
 
 
 def turn_view(case: Case, before: Turn | None, drawing: Drawing | None, chapters: Mapping[int, int]) -> TurnView:
@@ -75,12 +70,24 @@ def turn_view(case: Case, before: Turn | None, drawing: Drawing | None, chapters
         tuple(_rows(turn)),
         ended.attempt.goal.unmet if ended else (),
         (*(completion.notes if completion else ()), *(proposal.repairs if proposal else ())),
-        feedback.summary if feedback else "",
+        tuple(_told(feedback)) if feedback else (),
         tuple(changes(before.messages, turn.messages)) if before else (),
         drawing,
-        tuple(contact_in_words(contact) for contact in case.evidence.failure.contacts) if case.evidence else (),
+        tuple(_seen(case.evidence.failure)) if case.evidence else (),
         chapters.get(turn.number),
     )
+
+
+def _seen(failure: Failure) -> Iterator[str]:
+    yield from map(contact_in_words, failure.contacts)
+    touched = {contact.object for contact in failure.contacts}
+    yield from (f"{name} is to blame" for name in failure.objects if name not in touched)
+
+
+def _told(feedback: Feedback) -> Iterator[str]:
+    yield from (f"{remark.action}: {remark.text}" for remark in feedback.remarks if remark.verdict == "failed")
+    if feedback.summary:
+        yield feedback.summary
 
 
 def ending(turn: Turn) -> str:

@@ -147,11 +147,22 @@ def test_nothing_is_put_anywhere_while_a_plan_is_played(executed, plans, monkeyp
 def test_what_is_not_taken_stays_where_it_is(executed, env, plans, name):
     actions = (without(plans["panda"].actions[0], EventKind.ATTACH), plans["panda"].actions[1])
     execution = executed(actions)
-    away, *rest = told(execution)
+    missing, away, *rest = told(execution)
+    assert missing == f"{name} is not in the gripper, and should be"
     assert away == f"{name} was not in the gripper when it was to be let go"
     assert all(line.startswith(f"{name} came to rest ") for line in rest)
     assert execution.state.poses[name].position == pytest.approx(plans["panda"].start.poses[name].position, abs=0.001)
     assert f"{name} is not in the basket" in env.goal(execution.state).unmet
+
+
+def test_what_no_event_takes_is_told_to_be_missing_and_not_to_be_where_it_was_to_be_put(executed, plans, name):
+    silent = tuple(
+        replace(step, motion=Motion(tuple(replace(segment, events=()) for segment in step.motion.segments)))
+        for step in plans["panda"].actions[:2]
+    )
+    picked, placed = executed(silent).actions
+    assert [slip.sentence for slip in picked.slips] == [f"{name} is not in the gripper, and should be"]
+    assert placed.slips[0].sentence.startswith(f"{name} came to rest ")
 
 
 def test_what_is_elsewhere_is_not_taken(executed, plans, pick, name):

@@ -40,7 +40,8 @@ def test_a_solved_run_prints_the_plan_and_tells_the_story_on_stderr(corridor, sc
 def test_an_unsolved_run_prints_no_plan_and_exits_1(corridor, script):
     ended = corridor(f"{script(SHORT)} --max-llm-calls 1 --out here")
     assert (ended.code, ended.out) == (1, "")
-    tried, unmet, summary, _ = ended.err.splitlines()[-4:]
+    tried, unmet, summary, why, _ = ended.err.splitlines()[-5:]
+    assert why == "the budget of model calls is used up"
     assert tried == "   1. go([], {'x': 0.5, 'y': 0.5}): feasible"
     assert unmet == "    goal not reached: the robot is not at the end of the corridor"
     assert summary.startswith("not solved in ")

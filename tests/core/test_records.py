@@ -136,7 +136,7 @@ def test_a_run_that_is_not_solved(tmp_path):
     assert not (tmp_path / "plan.json").exists()
     with pytest.raises(InputError) as caught:
         read_plan(tmp_path)
-    assert str(caught.value) == f"{tmp_path} holds no plan.json: the run was not solved."
+    assert str(caught.value) == f"{tmp_path} holds no plan.json: the run was not solved, or has not ended."
 
 
 @pytest.mark.parametrize(

@@ -275,6 +275,18 @@ NAMES = (
             "point_time.npy: its header is not as numpy writes it",
         ),
         (
+            members(point_time=npy("{'descr': '<f8', 'fortran_order': False, 'shape': ((0,)}\n")),
+            "point_time.npy: its header is not as numpy writes it",
+        ),
+        (
+            members(joint_names=npy("{'descr': '<U0', 'fortran_order': False, 'shape': (50000000,)}\n")),
+            "joint_names.npy: the dtype <U0, and texts and numbers are read",
+        ),
+        (
+            members(joint_names=npy("{'descr': '<U1', 'fortran_order': False, 'shape': (1,)}\n", b"\xff" * 4)),
+            "joint_names.npy: a text holds what is no character",
+        ),
+        (
             members(point_time=npy("", version=(3, 0))),
             "point_time.npy: version 3.0 of the .npy format, and 1.0 is read",
         ),

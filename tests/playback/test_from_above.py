@@ -22,6 +22,9 @@ class Plane:
     def stage(self, instance, options, window=False):
         return None
 
+    def scenery(self, instance, options):
+        return None
+
     def top_view(self, instance, options, state):
         x, y, _ = state.poses["red_box"].position
         return square("room", 0, 0, 1.0, fixed=True, color=(0.0, 0.0, 1.0)), square("red_box", x, y)
@@ -62,7 +65,7 @@ def test_a_domain_that_shows_nothing_is_told():
 
     with pytest.raises(MissingCapability) as error:
         drawn(at(0, 0), Dark())
-    assert str(error.value) == "domain 'dark' has no stage and no top view, which llm3 render needs."
+    assert str(error.value) == "domain 'dark' has no stage, no top view and no scenery, which llm3 render needs."
 
 
 def test_what_is_no_shape_is_the_domains_mistake():

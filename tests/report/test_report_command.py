@@ -81,6 +81,29 @@ def test_a_damaged_record_is_one_line_and_loses_no_earlier_report(run, command, 
     assert (cwd / "here" / "report.html").read_bytes() == before
 
 
+def test_a_run_that_was_cut_off_before_it_began_has_a_report_all_the_same(run, command, cwd):
+    lines = (cwd / "here" / "events.jsonl").read_text().splitlines(keepends=True)
+    (cwd / "here" / "events.jsonl").write_text(lines[0])
+    assert command("report here").code == 0
+    page = read_page((cwd / "here" / "report.html").read_text(encoding="utf-8"))
+    remarks = [note.text for note in page.classed("note")]
+    assert remarks[0] == "The record is damaged: run.json says 'solved', and the events break off before the end."
+
+
+def test_a_run_that_goes_on_is_told_by_its_last_attempt(run, command, cwd):
+    text = (cwd / "here" / "run.json").read_text()
+    (cwd / "here" / "run.json").write_text(text.replace('"status": "solved"', '"status": "running"'))
+    assert command(SMALL).code == 0
+    page = read_page((cwd / "here" / "report.html").read_text(encoding="utf-8"))
+    remarks = [note.text for note in page.classed("note")]
+    sentence = "The run had not ended when this was written, or it was killed: figures are those of its last attempt."
+    assert remarks[0] == sentence
+
+
+def test_a_file_of_the_folder_is_as_good_as_the_folder(run, command):
+    assert command("report here/plan.json --small").out == "here/report.html\n"
+
+
 def test_an_experiment_has_its_tables_and_a_link_to_each_run(experiment, command, cwd):
     ended = command("report there")
     assert (ended.code, ended.out) == (0, "there/report.html\n")

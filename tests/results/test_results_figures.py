@@ -168,5 +168,5 @@ def test_without_matplotlib_it_says_so_before_anything_is_printed(command, cwd, 
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     ended = command("results", "done", "--plot", "drawn")
     assert (ended.code, ended.out) == (3, "")
-    assert ended.err == "llm3: error: --plot needs matplotlib, which is not installed: pip install 'llm3[plot]'.\n"
+    assert ended.err == "llm3: error: figures need matplotlib, which is not installed: pip install 'llm3[plot]'.\n"
     assert not Path("drawn").exists()

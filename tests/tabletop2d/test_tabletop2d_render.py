@@ -117,14 +117,17 @@ def test_a_film_can_be_made_anew(rendered, cwd):
 def test_a_run_without_a_plan_has_none_to_show(command):
     command("--domain tabletop2d --setting clutter --max-llm-calls 1 --quiet --out short")
     ended = command(f"render short {SMALL}")
-    assert (ended.code, ended.err) == (3, "llm3: error: short holds no plan.json: the run was not solved.\n")
+    assert (ended.code, ended.err) == (
+        3,
+        "llm3: error: short holds no plan.json: the run was not solved, or has not ended.\n",
+    )
     assert command(f"render short {SMALL} --attempt 1").code == 0
 
 
 def test_a_domain_that_cannot_be_drawn_is_told(command):
     assert command("--domain corridor --quiet --out dark").code == 0
     ended = command("render dark")
-    sentence = "llm3: error: domain 'corridor' has no stage and no top view, which llm3 render needs.\n"
+    sentence = "llm3: error: domain 'corridor' has no stage, no top view and no scenery, which llm3 render needs.\n"
     assert (ended.code, ended.err) == (2, sentence)
 
 

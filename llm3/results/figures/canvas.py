@@ -30,7 +30,7 @@ def check_matplotlib() -> None:
         MissingDependency: It is not installed.
     """
     if find_spec("matplotlib") is None:
-        raise MissingDependency("--plot needs matplotlib, which is not installed: pip install 'llm3[plot]'.")
+        raise MissingDependency("figures need matplotlib, which is not installed: pip install 'llm3[plot]'.")
 
 
 def color(index: int) -> str:

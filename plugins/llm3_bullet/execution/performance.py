@@ -74,6 +74,7 @@ class Performance:
         slips += self._look_at_grip()
         handled = {event.object for event in step.motion.events}
         slips += self._look_around(stood, before, step.state, handled)
+        slips += () if slips else self._look_at_hand(step.state)
         seconds = (world.ticks - began) * world.time_step
         return Executed(step.action, seconds, tracking.joint, tracking.rms, tracking.tool, tuple(slips))
 
@@ -138,6 +139,13 @@ class Performance:
         self._grip = _Grip(name, self._in_hand(name))
         yield from slip_of(self._grip.grasp, before, f"{name} slipped by {{}} in the gripper")
 
+    def _look_at_hand(self, after: State) -> Iterator[Slip]:
+        """What is in the hand after the action, and should not be, or the other way round."""
+        held, meant = self._hand.held(), after.held.object if after.held else None
+        if held != meant:
+            what = f"{meant} is not in the gripper, and should be" if meant else f"{held} is still in the gripper"
+            yield Slip(what)
+
     def _look_around(
         self, stood: Mapping[str, Array], before: State, after: State, handled: set[str | None]
     ) -> Iterator[Slip]:
@@ -147,8 +155,8 @@ class Performance:
             if name in (held, self._grip and self._grip.name) or name not in after.poses:
                 continue
             now, planned = self._world.box(name), as_matrix(after.poses[name])
-            if name in handled:
+            if name in handled or name not in before.poses:
                 yield from slip_of(now, planned, f"{name} came to rest {{}} from where the plan has it")
-            elif name in before.poses:
+            else:
                 way = moved(frame, now, as_matrix(before.poses[name]), planned)
                 yield from slip_of(*way, f"{name} was moved by {{}} against the plan")

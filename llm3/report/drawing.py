@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from llm3.playback import Touch, touching
+from llm3.report.labels import Label, labels
 from llm3.types import Color, Shape, color_of
 
 Point = NDArray[np.float64]
@@ -66,9 +67,13 @@ class Drawing:
     """Where they touch, in millimetres."""
 
     @property
-    def labels(self) -> tuple[Polygon, ...]:
-        """What bears its name, each thing once: all that can be moved."""
-        return tuple({polygon.name: polygon for polygon in self.polygons if polygon.kind == "object"}.values())
+    def labels(self) -> tuple[Label, ...]:
+        """The names of all that can be moved, and of a robot of one piece, each once."""
+        robot = [polygon for polygon in self.polygons if polygon.kind == "robot"]
+        named = [polygon for polygon in self.polygons if polygon.kind == "object"] + robot * (len(robot) == 1)
+        places = {polygon.name: (polygon.name, *polygon.center) for polygon in named}
+        left, right = 1000 * self.window.left, 1000 * (self.window.left + self.window.width)
+        return tuple(labels(sorted(places.values(), key=lambda place: place[2]), self.text_size, left, right))
 
     @property
     def text_size(self) -> float:

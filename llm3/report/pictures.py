@@ -11,7 +11,7 @@ from llm3.interfaces import Picture
 from llm3.playback import frames
 from llm3.report.drawing import Drawing, Window, drawing
 from llm3.report.sights import Sights
-from llm3.types import Moment, PlannedAction, State
+from llm3.types import Moment, PlannedAction, State, moment_of
 
 SIZE = (400, 300)
 """Width and height in pixels."""
@@ -19,10 +19,12 @@ SIZE = (400, 300)
 
 @dataclass(frozen=True)
 class Step:
-    """An action of the plan, and what is to be seen at its end."""
+    """An action of the plan, and what is to be seen at its end; before the first one, the start."""
 
     number: int
+    """0 for the start."""
     action: str
+    """Empty for the start."""
     seconds: float | None
     """How long the robot moves; None where the plan has no times."""
     image: str
@@ -32,7 +34,7 @@ class Step:
 
 
 def steps(start: State, plan: tuple[PlannedAction, ...], sights: Sights, window: Window | None) -> Iterator[Step]:
-    """The actions of a plan, in order.
+    """The start and the actions of a plan, in order; nothing of an empty plan.
 
     Args:
         start: Where it begins.
@@ -41,13 +43,19 @@ def steps(start: State, plan: tuple[PlannedAction, ...], sights: Sights, window:
         window: For what is seen from above.
     """
     ends = {frame.action: frame.moment for frame in frames(start, plan, 1.0)}
-    for index, step in enumerate(plan):
-        number, moment = index + 1, ends[index]
-        image = _image(moment, sights)
-        drawn = None
-        if not image and sights.view and window:
-            drawn = drawing(f"After action {number}, seen from above.", window, sights.view(moment))
-        yield Step(number, str(step.action), step.motion.duration, image, drawn)
+    if plan:
+        yield Step(0, "", None, *_seen("At the start", moment_of(start), sights, window))
+    for number, step in enumerate(plan, start=1):
+        seen = _seen(f"After action {number}", ends[number - 1], sights, window)
+        yield Step(number, str(step.action), step.motion.duration, *seen)
+
+
+def _seen(when: str, moment: Moment, sights: Sights, window: Window | None) -> tuple[str, Drawing | None]:
+    """A picture, or a drawing in its place."""
+    image = _image(moment, sights)
+    if image or sights.view is None or window is None:
+        return image, None
+    return "", drawing(f"{when}, seen from above.", window, sights.view(moment))
 
 
 def _image(moment: Moment, sights: Sights) -> str:

@@ -156,9 +156,10 @@ def test_the_figures_are_the_records(folder, page):
 def test_a_plan_is_drawn_step_by_step_where_there_are_no_pictures(solved, solved_page):
     story = read_story(solved)
     (steps,) = solved_page.classed("steps")
-    items = list(steps.all("li"))
+    start, *items = steps.all("li")
+    assert next(start.all("p")).text == "The start"
     assert [next(item.all("code")).text for item in items] == [str(step.action) for step in story.result.plan]
-    assert all(len(list(item.all("svg"))) == 1 for item in items)
+    assert all(len(list(item.all("svg"))) == 1 for item in (start, *items))
 
 
 def test_of_very_many_attempts_the_last_are_told(search):

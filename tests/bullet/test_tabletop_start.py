@@ -136,3 +136,11 @@ def test_an_instance_tells_it_by_itself(second, sentence):
         check_boxes((BoxSpec("red_box", CUBE, (0.5, 0.0)), second))
     assert str(error.value) == sentence
     check_boxes((BoxSpec("red_box", CUBE, (0.5, 0.0)), BoxSpec("tan_box", CUBE, (0.56, 0.0))))
+
+
+def test_a_box_that_is_called_as_a_part_of_the_robot(cells):
+    named = cube("panda_link7", 0.5, 0.0)
+    assert refused(cells["panda"], named) == (
+        "panda_link7 is what robot 'panda' calls one of its links: give the box another name"
+    )
+    Tabletop(cells["iiwa"], (table(), PILLAR), (named,))

@@ -36,15 +36,25 @@ def check_start(
         to_move: The names of boxes without a move of which the goal cannot be reached.
 
     Raises:
-        InstanceError: A box starts in another one, in the furniture, in the arm or in the air; the arm stands on an
-            area; a box that has to be moved does not fit the gripper, or is farther away than the arm is long.
+        InstanceError: A box is called as a link of the robot is, or starts in another one, in the furniture, in the
+            arm or in the air; the arm stands on an area; a box that has to be moved does not fit the gripper, or is
+            farther away than the arm is long.
         InputError: The arm touches itself or the furniture.
     """
+    _check_names(workcell, start)
     _check_boxes(manipulation.things(start.poses), start)
     _check_arm(workcell, manipulation.transit_scene(start), start)
     _check_areas(workcell, areas, start)
     for name in to_move:
         _check_grasps(workcell, manipulation, start, name)
+
+
+def _check_names(workcell: Workcell, start: State) -> None:
+    """What touches what is told, and drawn, by names."""
+    for name in start.poses:
+        if name in workcell.model.links:
+            robot = workcell.model.description.name
+            raise InstanceError(f"{name} is what robot {robot!r} calls one of its links: give the box another name")
 
 
 def _check_boxes(things: Sequence[Box], start: State) -> None:

@@ -34,6 +34,15 @@ def dumps(value: Any) -> str:
     return msgspec.json.encode(value, enc_hook=_plain, order="sorted").decode()
 
 
+def one_line(value: Any) -> str:
+    """One line of JSON with fields in their own order, such as the parameters of an action as they are written.
+
+    Raises:
+        TypeError: Something inside has no JSON form.
+    """
+    return msgspec.json.encode(value, enc_hook=_plain).decode()
+
+
 def pretty(value: Any) -> str:
     """JSON for people: fields in their own order, indented, with a newline at the end."""
     return msgspec.json.format(msgspec.json.encode(value, enc_hook=_plain), indent=2).decode() + "\n"

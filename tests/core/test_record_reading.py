@@ -197,7 +197,7 @@ def replaced(number, old, new):
          "line 5, action: Expected `object`, got `int`"),
         (replaced(6, '"index":0', '"index":1'), "line 6: the index of the action is 0, not 1"),
         (replaced(6, '"failure"', '"fail"'), "line 6: Object missing required field `failure` - at `$.outcome`"),
-        (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (column 11)"),
+        (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (column 9)"),
         (lambda lines: lines[:4] + lines[5:], "line 5: ActionTried cannot follow ReplyReceived"),
         (lambda lines: lines[:1] + lines[2:], "line 2: PromptSent cannot follow the header"),
         (lambda lines: [*lines[:3], "", *lines[3:]], "line 4: empty"),

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
+from axe_playwright_python.sync_playwright import Axe
 from PIL import Image
 
 from llm3.cli.main import main
@@ -15,7 +15,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.pybullet]
 MEGABYTES_OF_A_REPORT = 8
 PATIENCE = 60_000
 """Milliseconds to wait for what a page does, on whatever machine."""
-CONTRASTS = (Path(__file__).parent / "contrast.js").read_text()
+AXE = {"iframes": False}
+"""A frame is looked at by itself: nothing can be asked across its wall."""
 
 
 @pytest.fixture
@@ -34,9 +35,19 @@ def ready(frame):
 
 
 def picture(frame):
-    """What the replay shows, as pixels."""
+    """What the replay shows at a standstill, as pixels: it draws when it comes to it, so some looks may be needed."""
+    last = look(frame)
+    for _ in range(20):
+        seen = look(frame)
+        if changed(last, seen) == 0:
+            return seen
+        last = seen
+    raise AssertionError("it does not stand still")
+
+
+def look(frame):
     canvas = frame.locator("canvas[data-engine]")
-    canvas.page.wait_for_timeout(1500)  # it draws when it comes to it
+    canvas.page.wait_for_timeout(1000)
     return np.asarray(Image.open(BytesIO(canvas.screenshot(timeout=PATIENCE))).convert("RGB")).astype(int)
 
 
@@ -49,6 +60,11 @@ def pink(pixels):
     """How many pixels have the colour of what touches."""
     red, green, blue = np.moveaxis(pixels, 2, 0)
     return int(((red > 180) & (blue > 130) & (green < 110)).sum())
+
+
+def hindrances(page):
+    """What keeps people from using a page or a frame, such as too little contrast, one in each line."""
+    return Axe().run(page, options=AXE).generate_snapshot()
 
 
 def time(frame):
@@ -69,14 +85,12 @@ def test_it_is_one_file_of_a_few_megabytes(reported):
 
 def test_the_play_button_moves_the_arm_and_the_pause_button_stops_it(page, replay):
     before, began = picture(replay), time(replay)
-    assert changed(before, picture(replay)) == 0
     replay.get_by_role("button", name="Play").press("Enter")  # a slow machine may not know yet where a mouse would be
     page.wait_for_timeout(3000)
     replay.get_by_role("button", name="Pause").press("Enter")
     after = picture(replay)
     assert time(replay) > began + 1
     assert changed(before, after) > 300
-    assert changed(after, picture(replay)) == 0
 
 
 def test_an_attempt_that_failed_is_shown_with_what_touches_in_pink(page, replay):
@@ -138,13 +152,16 @@ def test_everything_that_can_be_used_is_reached_by_tab_and_shows_that_it_is(smal
 
 
 @pytest.mark.parametrize("width", [1200, 400])
-def test_every_text_stands_out_and_nothing_is_wider_than_the_page(small, visit, width):
+def test_nothing_keeps_anybody_from_using_it_and_nothing_is_wider_than_the_page(small, visit, width):
     with visit(small, width) as page:
         page.evaluate("document.querySelectorAll('details').forEach((e) => { e.open = true; })")
-        texts = page.evaluate(CONTRASTS)
-        assert len(texts) > 100
-        assert [text for text in texts if text["ratio"] < text["least"]] == []
+        assert hindrances(page) == ""
         assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_nothing_keeps_anybody_from_using_the_replay(page, replay):
+    (frame,) = page.frames[1:]
+    assert hindrances(frame) == ""
 
 
 def test_a_replay_of_its_own_plays_too(reported, tmp_path, visit):
@@ -152,8 +169,9 @@ def test_a_replay_of_its_own_plays_too(reported, tmp_path, visit):
     assert main(["render", str(reported.parent), "--out", str(file), "--quiet"]) == 0
     with visit(file) as page:
         before = picture(ready(page))
-        page.get_by_role("button", name="Play").click()
+        page.get_by_role("button", name="Play").press("Enter")
         page.wait_for_timeout(3000)
+        page.get_by_role("button", name="Pause").press("Enter")
         assert changed(before, picture(page)) > 300
 
 
@@ -174,8 +192,7 @@ def test_the_report_of_an_experiment_leads_to_those_of_its_runs(tmp_path, visit)
     assert main([*asked, str(folder)]) == 0
     assert main(["report", str(folder), "--quiet"]) == 0
     with visit(folder / "report.html") as page:
-        texts = page.evaluate(CONTRASTS)
-        assert [text for text in texts if text["ratio"] < text["least"]] == []
+        assert hindrances(page) == ""
         links = page.locator("#runs ~ * a")
         assert links.count() == 1
         target = (folder / links.first.get_attribute("href")).resolve()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from functools import partial
-from math import degrees, nan
+from math import degrees
 from typing import TextIO
 
-from llm3.cli.problem_arguments import LARGEST_SEED, path, seed, whole
+from llm3.cli.problem_arguments import LARGEST_SEED, number, path, seed, whole
 from llm3.cli.text import emit, printable
 from llm3.errors import UsageError
 from llm3.execution import execute, open_executor
@@ -25,7 +25,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
     add("plan", type=path, metavar="PLAN", help="a plan.json, or the folder of a run")
-    spread = partial(_deviation, most=1.0)
+    spread = partial(number, least=0.0, most=1.0)
     add(
         "--position-noise",
         type=spread,
@@ -67,11 +67,11 @@ def run(arguments: Namespace, out: TextIO) -> int:
     noise = Noise(arguments.position_noise, arguments.angle_noise, arguments.joint_noise)
     reports: dict[int, ExecutionReport] = {}
     with open_plan(Registry.discover(), plan) as problem, open_executor(problem, noise) as executor:
-        for number in range(first, first + times):
-            report = execute(problem, plan, executor, generator("execute", number))
-            reports[number] = report
+        for drawn in range(first, first + times):
+            report = execute(problem, plan, executor, generator("execute", drawn))
+            reports[drawn] = report
             if not arguments.json:
-                lines = _lines(plan, report) if times == 1 else (f"seed {number}: {_ending(plan, report)}",)
+                lines = _lines(plan, report) if times == 1 else (f"seed {drawn}: {_ending(plan, report)}",)
                 emit("".join(f"{printable(line)}\n" for line in lines), out)
     reached = sum(report.goal.achieved for report in reports.values())
     if arguments.json:
@@ -82,8 +82,8 @@ def run(arguments: Namespace, out: TextIO) -> int:
 
 
 def _lines(plan: PlanFile, report: ExecutionReport) -> Iterator[str]:
-    for number, done in enumerate(report.execution.actions, start=1):
-        yield f"action {number} {done.action}, {done.seconds:.1f} s: {'; '.join(map(str, done.slips)) or 'as planned'}"
+    for place, done in enumerate(report.execution.actions, start=1):
+        yield f"action {place} {done.action}, {done.seconds:.1f} s: {'; '.join(map(str, done.slips)) or 'as planned'}"
     yield _ending(plan, report)
 
 
@@ -111,23 +111,13 @@ def _summary(plan: PlanFile, noise: Noise, reports: dict[int, ExecutionReport]) 
         "reached": sum(report.goal.achieved for report in reports.values()),
         "executions": [
             {
-                "seed": number,
+                "seed": drawn,
                 "goal": report.goal,
                 "start": report.execution.start,
                 "state": report.execution.state,
                 "actions": report.execution.actions,
                 "pose_errors": report.pose_errors,
             }
-            for number, report in reports.items()
+            for drawn, report in reports.items()
         ],
     }
-
-
-def _deviation(text: str, most: float) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not 0.0 <= value <= most:
-        raise ArgumentTypeError(f"expected a number from 0 to {most:g}, not {text!r}")
-    return value

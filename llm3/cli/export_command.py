@@ -2,39 +2,43 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
-from math import nan
+from argparse import ArgumentParser, Namespace
+from functools import partial
 from pathlib import Path
 from typing import TextIO
 
-from llm3.cli.problem_arguments import path, plan_name
+from llm3.cli.output_file import check_free, write_file
+from llm3.cli.problem_arguments import number, path, plan_name
 from llm3.cli.text import emit
-from llm3.errors import LLM3Error, OutputExists, UsageError
+from llm3.errors import UsageError
 from llm3.export import FORMATS, check_program, program_of, resampled, write_program
 from llm3.export.formats import format_of
 from llm3.records import open_plan, read_plan
-from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
 
-RATES = 1.0, 1000.0
-"""Points a second, from and to."""
+SLOWEST, FASTEST = 1.0, 1000.0
+"""Points a second."""
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
-    add = parser.add_argument
+    add, rate = parser.add_argument, partial(number, least=SLOWEST, most=FASTEST)
     add("plan", type=path, metavar="PLAN", help="a plan.json, or the folder of a run")
     add("--format", choices=FORMATS, help="of the file (default: by the ending of --out, or ros2-json)")
     add("--out", type=path, metavar="FILE", help="a .json, .csv or .npz (default: one here, with the folder's name)")
-    add("--rate", type=_rate, metavar="HZ", help="evenly spaced points, as many a second (default: those of the plan)")
+    add(
+        "--rate",
+        type=rate,
+        metavar="HZ",
+        help="evenly spaced points, as many a second (default: those of the plan)",
+    )
     add("--force", action="store_true", help="overwrite FILE")
 
 
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     name, file = _chosen(arguments)
-    if file.exists() and not arguments.force:
-        raise OutputExists(f"'{file}' exists: give another --out, or --force.")
+    check_free(file, arguments.force)
     plan = read_plan(arguments.plan)
     program = program_of(plan)
     with open_plan(Registry.discover(), plan) as problem:
@@ -43,10 +47,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     if arguments.rate:
         program = resampled(program, arguments.rate, joints)
         check_program(program, joints, plan.start.configuration, quintic=True)
-    try:
-        write_whole(file, write_program(program, name, with_accelerations=bool(arguments.rate)))
-    except OSError as error:
-        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error
+    write_file(file, write_program(program, name, with_accelerations=bool(arguments.rate)))
     emit(f"{file}\n", out)
     return 0
 
@@ -61,14 +62,3 @@ def _chosen(arguments: Namespace) -> tuple[str, Path]:
         ending = FORMATS[arguments.format].ending
         raise UsageError(f"--format {arguments.format} makes a {ending}, and --out is '{arguments.out}'.")
     return name, arguments.out
-
-
-def _rate(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    least, most = RATES
-    if not least <= value <= most:
-        raise ArgumentTypeError(f"expected a number from {least:g} to {most:g}, not {text!r}")
-    return value

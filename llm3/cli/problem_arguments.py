@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from functools import partial
+from math import nan
 from pathlib import Path
 from typing import Any
 
@@ -107,6 +108,17 @@ def whole(text: str, least: int, most: int) -> int:
     if text.isascii() and text.isdigit() and len(text) <= len(str(most)) and least <= int(text) <= most:
         return int(text)
     raise ArgumentTypeError(f"expected a whole number from {least} to {most}, not {text!r}")
+
+
+def number(text: str, least: float, most: float) -> float:
+    """A number, for arguments."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = nan
+    if not least <= value <= most:
+        raise ArgumentTypeError(f"expected a number from {least:g} to {most:g}, not {text!r}")
+    return value
 
 
 def seed(text: str) -> int:

@@ -5,18 +5,16 @@ from __future__ import annotations
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Iterator, Sequence
 from functools import partial
-from math import nan
 from pathlib import Path
 from typing import TextIO
 
-from llm3.cli.problem_arguments import path, plan_name, whole
+from llm3.cli.output_file import check_free, write_file
+from llm3.cli.problem_arguments import number, path, plan_name, whole
 from llm3.cli.text import emit
-from llm3.errors import LLM3Error, OutputExists
 from llm3.interfaces import Picture, Stage
 from llm3.playback import Chapter, Frame, evenly, frames, open_scenery, open_stage, replay_page
 from llm3.playback.film import check_kind, write_film, write_picture
 from llm3.records import Played, read_played
-from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
 from llm3.types import Moment, moment_of
 
@@ -32,6 +30,8 @@ SIDES = range(16, 4001, 2)
 def add_arguments(parser: ArgumentParser) -> None:
     """Add the command's arguments."""
     add = parser.add_argument
+    rate, factor = partial(number, least=1.0, most=100.0), partial(number, least=0.1, most=100.0)
+    seconds = partial(number, least=0.0, most=1e6)
     add("plan", type=path, metavar="PLAN", help="a plan.json, or the folder of a run")
     add(
         "--attempt",
@@ -47,9 +47,26 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     add("--force", action="store_true", help="overwrite FILE")
     add("--size", type=_size, metavar="WxH", default=(480, 360), help="in pixels (default: 480x360)")
-    add("--rate", type=_rate, metavar="N", default=10.0, help="pictures a second (default: 10)")
-    add("--speed", type=_factor, metavar="X", default=2.0, help="how many times as fast as the robot (default: 2)")
-    add("--at", type=_seconds, metavar="S", help="of a .png: seconds from the start of the motion (default: its end)")
+    add(
+        "--rate",
+        type=rate,
+        metavar="N",
+        default=10.0,
+        help="pictures a second (default: 10)",
+    )
+    add(
+        "--speed",
+        type=factor,
+        metavar="X",
+        default=2.0,
+        help="how many times as fast as the robot (default: 2)",
+    )
+    add(
+        "--at",
+        type=seconds,
+        metavar="S",
+        help="of a .png: seconds from the start of the motion (default: its end)",
+    )
     add("--quiet", action="store_true", help="no progress on stderr")
 
 
@@ -58,8 +75,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
     file = arguments.out or Path(f"{plan_name(arguments.plan)}.gif")
     if file.suffix.lower() != PAGE:
         check_kind(file)
-    if file.exists() and not arguments.force:
-        raise OutputExists(f"'{file}' exists: give another --out, or --force.")
+    check_free(file, arguments.force)
     played = read_played(Registry.discover(), arguments.plan, arguments.attempt)
     if file.suffix.lower() == PAGE:
         _write_page(played, file, arguments.attempt)
@@ -84,11 +100,7 @@ def _write_page(played: Played, file: Path, attempt: int | None) -> None:
     scenery = open_scenery(played.domain, played.instance, played.options, "a page")
     moments = (frame.moment for frame in frames(played.start, played.steps, SMOOTH))
     title = "The plan" if attempt is None else f"Attempt {attempt}"
-    page = replay_page(f"{played.domain.name} in three dimensions", scenery, [Chapter(title, moments)])
-    try:
-        write_whole(file, page)
-    except OSError as error:
-        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error
+    write_file(file, replay_page(f"{played.domain.name} in three dimensions", scenery, [Chapter(title, moments)]))
 
 
 def _pictures(stage: Stage, shown: Sequence[Frame], arguments: Namespace) -> Iterator[Picture]:
@@ -119,25 +131,3 @@ def _size(text: str) -> tuple[int, int]:
             f"expected two even numbers from {SIDES[0]} to {SIDES[-1]}, such as 480x360, not {text!r}"
         )
     return sides[0], sides[1]
-
-
-def _rate(text: str) -> float:
-    return _number(text, 1.0, 100.0)
-
-
-def _factor(text: str) -> float:
-    return _number(text, 0.1, 100.0)
-
-
-def _seconds(text: str) -> float:
-    return _number(text, 0.0, 1e6)
-
-
-def _number(text: str, least: float, most: float) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = nan
-    if not least <= value <= most:
-        raise ArgumentTypeError(f"expected a number from {least:g} to {most:g}, not {text!r}")
-    return value

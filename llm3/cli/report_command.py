@@ -5,17 +5,14 @@ from __future__ import annotations
 import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
+from llm3.cli.output_file import check_free, write_file
 from llm3.cli.problem_arguments import path
 from llm3.cli.text import emit, printable
-from llm3.errors import InputError, LLM3Error, OutputExists
+from llm3.errors import InputError
 from llm3.experiments import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder
-from llm3.records.whole_file import write_whole
 from llm3.registry import Registry
-
-if TYPE_CHECKING:  # reports need numbers and figures, which take a while to import
-    from llm3.report import Report
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -38,8 +35,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
 
     folder: Path = arguments.folder.parent if arguments.folder.is_file() else arguments.folder
     file: Path = arguments.out or folder / PAGE
-    if arguments.out and file.exists() and not arguments.force:
-        raise OutputExists(f"'{file}' exists: give another --out, or --force.")
+    check_free(file, arguments.force or not arguments.out)  # a report in its own place is written anew
     registry = Registry.discover()
     if (folder / EXPERIMENT_FILE).exists():
         record = read_experiment_folder(folder)
@@ -52,7 +48,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
         )
     else:
         report = run_report(registry, folder, moving=not arguments.small)
-    _write(report, file)
+    write_file(file, report.page)
     for note in report.notes if not arguments.quiet else ():
         sys.stderr.write(f"{printable(note)}\n")
     emit(f"{file}\n", out)
@@ -67,16 +63,9 @@ def _write_runs(registry: Registry, record: ExperimentRecord, quiet: bool) -> No
     missing = [folder for folder in recorded_runs(record) if not _is_newer(folder / PAGE, folder / "run.json")]
     with ProgressView("report", len(missing), quiet) as view:
         for folder in missing:
-            _write(run_report(registry, folder, moving=False), folder / PAGE)
+            write_file(folder / PAGE, run_report(registry, folder, moving=False).page)
             view.advance()
 
 
 def _is_newer(file: Path, other: Path) -> bool:
     return file.exists() and file.stat().st_mtime_ns >= other.stat().st_mtime_ns
-
-
-def _write(report: Report, file: Path) -> None:
-    try:
-        write_whole(file, report.page)
-    except OSError as error:
-        raise LLM3Error(f"'{file}' cannot be written: {error.strerror or error}.") from error

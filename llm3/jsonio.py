@@ -34,7 +34,7 @@ def dumps(value: Any) -> str:
     return msgspec.json.encode(value, enc_hook=_plain, order="sorted").decode()
 
 
-def one_line(value: Any) -> str:
+def unsorted(value: Any) -> str:
     """One line of JSON with fields in their own order, such as the parameters of an action as they are written.
 
     Raises:

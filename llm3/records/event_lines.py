@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from llm3.jsonio import loads, one_line
+from llm3.jsonio import loads, unsorted
 from llm3.types import (
     Action,
     ActionTried,
@@ -147,8 +147,8 @@ def proposal_from(plain: Any, source: str) -> Proposal | Failure:
         InputError: It is neither.
     """
     if isinstance(plain, dict) and "kind" in plain:
-        return loads(one_line(plain), Failure, f"{source}, proposal")
-    line = loads(one_line(plain), _ProposalLine, f"{source}, proposal")
+        return loads(unsorted(plain), Failure, f"{source}, proposal")
+    line = loads(unsorted(plain), _ProposalLine, f"{source}, proposal")
     return Proposal(tuple(action_from(item, source) for item in line.actions), line.reasoning, line.repairs)
 
 
@@ -159,5 +159,5 @@ def action_from(plain: Any, source: str) -> Action | Rejected:
         InputError: It is neither.
     """
     if isinstance(plain, dict) and "text" in plain:
-        return loads(one_line(plain), Rejected, f"{source}, action")
-    return loads(one_line(plain), Action, f"{source}, action")
+        return loads(unsorted(plain), Rejected, f"{source}, action")
+    return loads(unsorted(plain), Action, f"{source}, action")

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from llm3.errors import InputError
-from llm3.jsonio import loads, one_line
+from llm3.jsonio import loads, unsorted
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class LineWriter:
 
     def write(self, value: Any) -> None:
         """Write one line."""
-        self._file.write(one_line(value) + "\n")
+        self._file.write(unsorted(value) + "\n")
         self._file.flush()
 
     def close(self) -> None:
@@ -66,7 +66,7 @@ def read_lines(path: Path, format_: str) -> Iterator[tuple[str, bytes]]:
         *whole, last = path.read_bytes().split(b"\n")
     except OSError as error:
         raise InputError(f"{path}: {error.strerror or error}") from error
-    header = one_line(Header(format_)).encode()
+    header = unsorted(Header(format_)).encode()
     if _is_json(last) or not (whole or header.startswith(last)):
         whole.append(last)
     for number, text in enumerate(whole, start=1):

@@ -156,6 +156,7 @@ def _backend(registry: Registry, config: RunConfig, domain: Domain, instance: An
             max_reply_tokens=config.max_reply_tokens,
             stand_in=domain.stand_in(),
             skeleton=domain.skeleton(instance) or (),
+            pieces=domain.pieces(instance) or (),
             regions=domain.regions(instance) or FrozenDict(),
             run=config.run_name,
         ),

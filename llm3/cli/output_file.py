@@ -15,7 +15,7 @@ def check_free(file: Path, force: bool) -> None:
         OutputExists: There is such a file, and `force` is not given.
     """
     if file.exists() and not force:
-        raise OutputExists(f"'{file}' exists: give another --out, or --force.")
+        raise OutputExists(f"'{file}' exists: choose another file, or give --force.")
 
 
 def write_file(file: Path, content: str | bytes) -> None:

@@ -29,6 +29,11 @@ def add_problem_arguments(parser: ArgumentParser) -> None:
 def add_world_arguments(parser: ArgumentParser) -> None:
     """Add ``--instance`` and ``-D``."""
     parser.add_argument("--instance", type=path, metavar="FILE", help="load the problem from a JSON file instead")
+    add_option_arguments(parser)
+
+
+def add_option_arguments(parser: ArgumentParser) -> None:
+    """Add ``-D``."""
     parser.add_argument(
         "-D",
         dest="options",

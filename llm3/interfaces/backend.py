@@ -34,6 +34,8 @@ class BackendSettings:
     """The domain's rule-based stand-in, where it has one."""
     skeleton: tuple[Sketch, ...] = ()
     """The domain's action sequence, where it has one."""
+    pieces: tuple[tuple[Sketch, ...], ...] = ()
+    """What the domain's solutions consist of, in an order that has to be found, where it tells."""
     regions: Regions = field(default_factory=FrozenDict)
     """The domain's sampling regions, where it has them."""
     run: str = ""

@@ -13,7 +13,7 @@ from llm3.interfaces.executor import Executor
 from llm3.interfaces.scenery import Scenery
 from llm3.interfaces.stage import Stage
 from llm3.interfaces.verifier import PlanVerifier
-from llm3.types import Noise, Shape, Sketch, State
+from llm3.types import Action, Noise, Shape, Sketch, State
 
 Options = Mapping[str, str]
 """Domain options as the user wrote them (``-D key=value``)."""
@@ -79,8 +79,24 @@ class Domain(ABC):
         """The action sequence that `sample-params` and the random sampler fill in."""
         return None
 
+    def pieces(self, instance: Any) -> tuple[tuple[Sketch, ...], ...] | None:  # noqa: ARG002  # part of the interface
+        """Short action sequences that solve the problem one after another, in an order that has to be found.
+
+        Where no strategy fixes the sequence, the random sampler draws the order of the pieces as well, and without
+        pieces keeps to the `skeleton`.
+        """
+        return None
+
     def regions(self, instance: Any) -> Regions | None:  # noqa: ARG002  # part of the interface
         """Tighter ranges for random sampling than the schemas', such as the inside of a basket."""
+        return None
+
+    def witness(self, setting: str, seed: int) -> tuple[Action, ...] | None:  # noqa: ARG002  # part of the interface
+        """Actions that solve the problem of a setting and a seed, so that whoever fails has only the method to blame.
+
+        What makes the instance may know them; the instance, and whatever is told of it, must not. None where no
+        solution is known. Options may make them useless, such as a robot with a shorter arm.
+        """
         return None
 
     def stand_in(self) -> StandIn | None:

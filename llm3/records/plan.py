@@ -12,7 +12,7 @@ from llm3.errors import InputError
 from llm3.interfaces import Joint
 from llm3.jsonio import dumps, loads, read_file, stated_format, to_builtins
 from llm3.registry import Registry
-from llm3.types import PlannedAction, Result, State
+from llm3.types import PlannedAction, State
 
 PLAN_FORMAT = "llm3-plan/1"
 
@@ -42,16 +42,16 @@ class PlanFile:
             raise ValueError(f"the format is {self.format!r}, and this version reads {PLAN_FORMAT!r}")
 
 
-def plan_file(problem: Problem, result: Result) -> PlanFile:
-    """The solution of a run, as it goes to disk."""
+def plan_file(problem: Problem, start: State, actions: tuple[PlannedAction, ...]) -> PlanFile:
+    """A solution, as it goes to disk."""
     return PlanFile(
         PLAN_FORMAT,
         problem.domain.name,
         to_builtins(problem.instance),
         problem.options,
         problem.env.joints,
-        result.start,
-        result.plan,
+        start,
+        actions,
     )
 
 

@@ -52,7 +52,9 @@ class Recorder:
     def __call__(self, event: RunEvent) -> None:
         """Note one event."""
         if isinstance(event, RunEnded) and event.result.solved:  # before the line that promises a plan
-            write_whole(self.folder / "plan.json", pretty(plan_file(self._run.problem, event.result)))
+            write_whole(
+                self.folder / "plan.json", pretty(plan_file(self._run.problem, event.result.start, event.result.plan))
+            )
         self._events.write({"event": type(event).__name__, "time": round(self.seconds, 3), **fields_of(event)})
         self._tally(event)
         if isinstance(event, AttemptEnded):

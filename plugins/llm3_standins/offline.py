@@ -17,7 +17,7 @@ def offline(settings: BackendSettings) -> LLMBackend:
     Raises:
         UsageError: The domain offers nothing for either.
     """
-    if settings.stand_in is None and not settings.skeleton:
+    if settings.stand_in is None and not settings.skeleton and not settings.pieces:
         raise UsageError(
             f"domain {settings.domain!r} has no rule-based stand-in and no skeleton to draw parameters for: "
             "give --model NAME or --llm scripted:FILE."

@@ -49,7 +49,7 @@ def pairs(registry: Registry, setting: str, arguments: argparse.Namespace) -> It
         config = RunConfig(arguments.domain, setting, seed, options={"robot": arguments.robot})
         with assemble(registry, config) as run:
             result = run.solve()
-            plan = loads(dumps(plan_file(run.problem, result)), PlanFile, "the plan")
+            plan = loads(dumps(plan_file(run.problem, result.start, result.plan)), PlanFile, "the plan")
             if not result.solved or not verify(run.problem, plan).sound:
                 sys.stderr.write(f"{setting} {seed}: no sound plan\n")
                 continue

@@ -49,7 +49,11 @@ def solved(registry: Registry, setting: str, seed: int, robot: str) -> PlanFile 
     """The plan of the stand-in, if it finds one."""
     with assemble(registry, RunConfig("boxpack", setting, seed, options={"robot": robot})) as run:
         result = run.solve()
-        return loads(dumps(plan_file(run.problem, result)), PlanFile, "the plan") if result.solved else None
+        return (
+            loads(dumps(plan_file(run.problem, result.start, result.plan)), PlanFile, "the plan")
+            if result.solved
+            else None
+        )
 
 
 def looks(registry: Registry, setting: str, seeds: int, robot: str) -> Iterator[Look]:

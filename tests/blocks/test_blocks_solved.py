@@ -38,7 +38,9 @@ def test_a_cup_builds_towers_too(solve):
 
 def outcome(run) -> tuple[str, str]:
     result = run.solve()
-    return dumps(replace(result, stats=replace(result.stats, seconds={}))), dumps(plan_file(run.problem, result))
+    return dumps(replace(result, stats=replace(result.stats, seconds={}))), dumps(
+        plan_file(run.problem, result.start, result.plan)
+    )
 
 
 def test_a_run_in_a_remade_world_leaves_the_same_bytes_as_one_in_a_new_world():

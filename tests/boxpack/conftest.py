@@ -50,6 +50,6 @@ def solve() -> Solve:
     def run(**config: object) -> tuple[Result, PlanFile]:
         with assemble(registry, RunConfig("boxpack", **config)) as ready:  # type: ignore[arg-type]  # any field
             result = ready.solve()
-            return result, plan_file(ready.problem, result)
+            return result, plan_file(ready.problem, result.start, result.plan)
 
     return run

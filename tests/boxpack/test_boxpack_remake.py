@@ -26,7 +26,7 @@ def outcome(run):
     """All that a run leaves, but for the time that it took."""
     result = run.solve()
     untimed = replace(result, stats=replace(result.stats, seconds={}))
-    return dumps(untimed), dumps(plan_file(run.problem, result))
+    return dumps(untimed), dumps(plan_file(run.problem, result.start, result.plan))
 
 
 def one_after_the_other(configs):

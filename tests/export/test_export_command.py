@@ -51,7 +51,7 @@ def test_a_rate_gives_even_points_and_accelerations(command, solved):
 def test_nothing_is_overwritten_but_by_force(command, solved):
     Path("run.csv").write_text("mine")
     ended = command("export run --format csv")
-    assert (ended.code, ended.err) == (2, "llm3: error: 'run.csv' exists: give another --out, or --force.\n")
+    assert (ended.code, ended.err) == (2, "llm3: error: 'run.csv' exists: choose another file, or give --force.\n")
     assert Path("run.csv").read_text() == "mine"
     assert command("export run --format csv --force").code == 0
     assert read_program(Path("run.csv")).joints == ("x", "y")

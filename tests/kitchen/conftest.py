@@ -35,7 +35,7 @@ def solve() -> Solve:
     def run(**config: object) -> tuple[Result, PlanFile, tuple[Defect, ...]]:
         with assemble(registry, RunConfig("kitchen", timing="none", **config)) as ready:  # type: ignore[arg-type]  # any field
             result = ready.solve()
-            plan = plan_file(ready.problem, result)
+            plan = plan_file(ready.problem, result.start, result.plan)
             return result, plan, verify(ready.problem, plan).defects
 
     return run

@@ -36,7 +36,7 @@ def test_another_file_is_not_overwritten_without_force(run, command, cwd):
     (cwd / "mine.html").write_text("mine")
     ended = command(f"{SMALL} --out mine.html")
     assert (ended.code, ended.out) == (2, "")
-    assert ended.err == "llm3: error: 'mine.html' exists: give another --out, or --force.\n"
+    assert ended.err == "llm3: error: 'mine.html' exists: choose another file, or give --force.\n"
     assert (cwd / "mine.html").read_text() == "mine"
     assert command(f"{SMALL} --out mine.html --force").out == "mine.html\n"
     assert "</html>" in (cwd / "mine.html").read_text()

@@ -25,7 +25,7 @@ def solve() -> Solve:
     def run(**config: object) -> tuple[Result, PlanFile, Verification | None]:
         with assemble(registry, RunConfig("tabletop2d", **config)) as ready:  # type: ignore[arg-type]  # any field
             result = ready.solve()
-            plan = plan_file(ready.problem, result)
+            plan = plan_file(ready.problem, result.start, result.plan)
             return result, plan, verify(ready.problem, plan) if result.solved else None
 
     return run

@@ -76,7 +76,7 @@ def test_in_a_pipe_the_number_of_pictures_is_told_at_the_end(run, command):
 
 WRONG = {
     "--out film.avi": (2, "'film.avi' must end in .gif, .mp4, .png or .html: that decides what is written."),
-    "--out there.gif": (2, "'there.gif' exists: give another --out, or --force."),
+    "--out there.gif": (2, "'there.gif' exists: choose another file, or give --force."),
     "--out no/where.gif": (3, "'no/where.gif' cannot be written: No such file or directory."),
     "--out no/where.png": (3, "'no/where.png' cannot be written: No such file or directory."),
     "--attempt 9": (2, "here has no attempt 9: the last one is 2."),

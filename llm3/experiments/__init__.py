@@ -1,5 +1,6 @@
 """Many runs from one description: read it, run it at any size, and keep a line for each run."""
 
+from llm3.experiments.budgets import Budgets
 from llm3.experiments.experiment import Experiment, Job, Method, ProblemFamily, RunKey
 from llm3.experiments.folder import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder, record_folder
 from llm3.experiments.layout import MEASURES, Column, Group, Layout, Published
@@ -13,6 +14,7 @@ from llm3.experiments.writer import ExperimentWriter
 __all__ = [
     "EXPERIMENT_FILE",
     "MEASURES",
+    "Budgets",
     "Column",
     "Experiment",
     "ExperimentRecord",

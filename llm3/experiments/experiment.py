@@ -9,6 +9,7 @@ from typing import Any
 
 from llm3.assembly import RunConfig
 from llm3.errors import UnknownName
+from llm3.experiments.budgets import Budgets
 from llm3.experiments.layout import Layout, Published
 from llm3.jsonio import dumps, loads
 from llm3.types import FrozenDict
@@ -91,6 +92,8 @@ class Experiment:
     """How its tables are printed; empty for one column a problem."""
     published: tuple[Published, ...] = ()
     """Figures of other people, to be printed beside."""
+    budgets: Budgets = field(default=Budgets())
+    """For which tables tell how many runs are solved within them."""
 
     def __post_init__(self) -> None:
         for what, names in (
@@ -169,4 +172,5 @@ class Experiment:
             problems=tuple(p for p in self.problems if not problems or p.name in problems),
             layouts=(),
             published=(),
+            budgets=Budgets(),
         )

@@ -13,6 +13,7 @@ from typing import Any
 from llm3.assembly import RunConfig
 from llm3.assembly.config import LOOP, OF_A_MODEL
 from llm3.errors import InputError, LLM3Error, UnknownName
+from llm3.experiments.budgets import Budgets
 from llm3.experiments.experiment import Experiment, Method, ProblemFamily
 from llm3.experiments.layout import Layout, Published
 from llm3.jsonio import dumps, loads
@@ -59,6 +60,7 @@ class ExperimentTable:
     """What all methods have in common."""
     layouts: tuple[Layout, ...] = ()
     published: tuple[Published, ...] = ()
+    budgets: Budgets = field(default=Budgets())
 
     def __post_init__(self) -> None:
         if not 1 <= self.attempts <= LARGEST:
@@ -106,6 +108,7 @@ def experiment_of(written: Mapping[str, Any], source: str) -> Experiment:
             tuple(_methods(table, source)),
             table.layouts,
             table.published,
+            table.budgets,
         )
     except ValueError as error:
         raise InputError(f"{source}: {error}") from error

@@ -19,13 +19,14 @@ class Row:
     """One figure; its fields are the columns. What does not apply is empty."""
 
     kind: str
-    """`count`, `value`, `difference` or `published`."""
+    """`count`, `value`, `within`, `difference` or `published`."""
     folder: str
     """Of the experiment; empty where only one is printed."""
     method: str
     problem: str
     """Empty for all problems together."""
     measure: str
+    """Of `within`: what there is a budget of."""
     over: str = ""
     """`all` or `solved` runs, or `pairs`."""
     n: int | str = ""
@@ -38,6 +39,8 @@ class Row:
     """Of a difference: what is subtracted."""
     other: str = ""
     """Of a difference: the method that is subtracted; of what was published: where."""
+    budget: int | str = ""
+    """Of `within`: the share is that of the runs that are solved within it."""
 
 
 def as_csv(summaries: Sequence[Summary], seconds: bool = True) -> str:
@@ -69,6 +72,8 @@ def _rows(summary: Summary, folder: str, first: str, seconds: bool) -> Iterator[
             yield Row("count", folder, method, problem, name, n=number)
         for (measure, over), estimate in cell.estimates.items():
             yield Row("value", folder, method, problem, measure, over, *_figures(estimate))
+        for (measure, budget), estimate in cell.within.items():
+            yield Row("within", folder, method, problem, measure, "all", *_figures(estimate), budget=budget)
     for difference in summary.differences:
         yield from _difference(difference, folder, folder)
     for difference in summary.since:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from llm3.experiments import MEASURES, ExperimentRecord, RunKey, RunLine
@@ -11,11 +11,11 @@ from llm3.results.estimates import Estimate
 from llm3.results.means import mean_estimates
 from llm3.results.measures import MACHINE, is_attempt, values
 from llm3.results.proportions import share_estimate
+from llm3.results.within import is_spent, shares_within
 from llm3.types import FrozenDict
 
 Over = Literal["all", "solved"]
 """Over which runs a mean is taken; a run that its budget ended is among all, with what it had spent by then."""
-POOLED = "all problems"
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,9 @@ class Cell:
     ended: tuple[RunLine, ...]
     estimates: Mapping[tuple[str, Over], Estimate]
     """By measure; without runs there are none, and none over solved runs where none is solved."""
+    within: Mapping[tuple[str, int], Estimate] = field(default_factory=FrozenDict)
+    """The share of runs that are solved within each budget of the experiment, by measure; without runs there are none,
+    and none where such a budget means nothing to the method."""
 
     @property
     def attempts(self) -> int:
@@ -59,10 +62,12 @@ def cells(record: ExperimentRecord, seconds: bool = True) -> Iterator[Cell]:
         problems.append(None)
     measures = tuple(measure for measure in MEASURES if seconds or measure not in MACHINE)
     for method in experiment.methods:
+        budgets = _budgets(record, method.name, measures)
         for name in problems:
             ended = runs_of(record, method.name, name)
             wanted = len(experiment.seeds) * (len(problems) - 1 if name is None else 1)
-            yield Cell(method.name, name, wanted, ended, FrozenDict(_estimates(ended, measures)))
+            estimates = FrozenDict(_estimates(ended, measures))
+            yield Cell(method.name, name, wanted, ended, estimates, FrozenDict(_within(ended, budgets)))
 
 
 def runs_of(record: ExperimentRecord, method: str, problem: str | None) -> tuple[RunLine, ...]:
@@ -86,3 +91,20 @@ def _estimates(ended: Sequence[RunLine], measures: Sequence[str]) -> dict[tuple[
             estimates = mean_estimates(values(runs, counted))
             found.update({(measure, over): e for measure, e in zip(counted, estimates, strict=True)})
     return found
+
+
+def _budgets(record: ExperimentRecord, method: str, measures: Sequence[str]) -> dict[str, tuple[int, ...]]:
+    """The budgets of the experiment that mean something to a method, by measure."""
+    attempts = list(filter(is_attempt, runs_of(record, method, None)))
+    given = record.experiment.budgets.by_measure
+    return {measure: given[measure] for measure in given if measure in measures and is_spent(attempts, measure)}
+
+
+def _within(ended: Sequence[RunLine], budgets: Mapping[str, Sequence[int]]) -> dict[tuple[str, int], Estimate]:
+    attempts = list(filter(is_attempt, ended))
+    return {
+        (measure, amount): share
+        for measure, amounts in budgets.items()
+        if attempts
+        for amount, share in zip(amounts, shares_within(attempts, measure, amounts), strict=True)
+    }

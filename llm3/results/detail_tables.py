@@ -6,12 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import get_args
 
 from llm3.experiments import MEASURES
-from llm3.results.cells import POOLED, Cell, Over
+from llm3.results.cells import Cell, Over
 from llm3.results.differences import COMPARED, Difference
 from llm3.results.estimates import LEVEL
 from llm3.results.measures import MACHINE
 from llm3.results.numbers import NOTHING, difference_with_interval, p_value, with_interval
-from llm3.results.table import Table, one_line
+from llm3.results.table import Table, one_line, problem_title
 
 
 def detail_table(cells: Sequence[Cell], seconds: bool = True) -> Table:
@@ -31,7 +31,7 @@ def detail_table(cells: Sequence[Cell], seconds: bool = True) -> Table:
 def _row(cell: Cell, over: Over, measures: Iterable[str]) -> tuple[str, ...]:
     runs = f"{cell.attempts}/{cell.wanted}" if over == "all" else str(cell.count("solved"))
     figures = (with_interval(cell.estimates.get((m, over)), m) for m in measures)
-    return (one_line(cell.method), _problem(cell.problem), f"{over} runs", runs, *figures)
+    return (one_line(cell.method), problem_title(cell.problem), f"{over} runs", runs, *figures)
 
 
 def difference_table(title: str, differences: Sequence[Difference]) -> Table:
@@ -52,13 +52,9 @@ def difference_table(title: str, differences: Sequence[Difference]) -> Table:
 def _difference_row(difference: Difference) -> Iterator[str]:
     yield one_line(difference.method)
     yield one_line(difference.against)
-    yield _problem(difference.problem)
+    yield problem_title(difference.problem)
     yield str(difference.pairs)
     for measure in COMPARED:
         found = difference.comparisons.get(measure)
         yield difference_with_interval(found.estimate, measure) if found else NOTHING
         yield p_value(found.p) if found else NOTHING
-
-
-def _problem(name: str | None) -> str:
-    return POOLED if name is None else one_line(name)

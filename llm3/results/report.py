@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from llm3.results.budget_tables import budget_tables
 from llm3.results.detail_tables import detail_table, difference_table
 from llm3.results.layout_tables import layout_tables
 from llm3.results.remarks import remarks, remarks_between
@@ -37,7 +38,9 @@ def _content(summary: Summary, seconds: bool) -> Iterator[Table | str]:
     cells = {(cell.method, cell.problem): cell for cell in summary.cells}
     yield from layout_tables(summary.record.experiment, cells, seconds)
     begun = {key.method for key in summary.record.runs}
-    yield detail_table([cell for cell in summary.cells if cell.method in begun], seconds)
+    ours = [cell for cell in summary.cells if cell.method in begun]
+    yield detail_table(ours, seconds)
+    yield from budget_tables(summary.record.experiment.budgets, ours, seconds)
     differences = [difference for difference in summary.differences if difference.method in begun]
     if differences:
         yield difference_table("Paired differences between the methods", differences)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 Span = tuple[str, int]
 """A head and how many columns it stands over."""
+POOLED = "all problems"
 
 
 @dataclass(frozen=True)
@@ -48,3 +49,8 @@ class Section:
 def one_line(text: str) -> str:
     """Without control characters and line breaks, whoever wrote it."""
     return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+
+
+def problem_title(name: str | None) -> str:
+    """What a row calls a problem; None stands for all of them."""
+    return POOLED if name is None else one_line(name)

@@ -8,7 +8,7 @@ import pytest
 from docs_pages import ROOT, blocks, page, table
 
 from llm3.cli.main import main
-from llm3.experiments import MEASURES, RunLine, experiment_of, parse_toml
+from llm3.experiments import MEASURES, Budgets, RunLine, experiment_of, parse_toml
 from llm3.experiments.toml_file import METHOD_FIELDS, ExperimentTable
 from llm3.registry import Registry
 
@@ -31,7 +31,7 @@ def test_the_fields_of_a_file_are_those_that_are_read():
 
 def test_every_field_of_a_method_and_every_measure_is_named():
     text = page("experiments")
-    for name in (*METHOD_FIELDS, *MEASURES):
+    for name in (*METHOD_FIELDS, *MEASURES, *(field.name for field in fields(Budgets))):
         assert f"`{name}`" in text
 
 
@@ -64,6 +64,7 @@ def test_the_example_says_what_it_seems_to_say(written):
     experiment = experiment_of(parse_toml(written, "mine.toml"), "mine.toml")
     assert [method.name for method in experiment.methods] == ["rules", "random", "search"]
     assert [problem.name for problem in experiment.problems] == ["easy-small", "hard-large"]
+    assert experiment.budgets == Budgets(llm_calls=(1, 5, 20), motion_calls=(10, 50, 200))
     assert len(experiment) == 30
 
 

@@ -156,7 +156,7 @@ WRONG = {
     "walks.toml --workers 2 --dask tcp://x:1": "--workers and --dask both say where runs are done: give one of them.",
     "walks.toml --set x": "argument --set: expected FIELD=VALUE, not 'x'. See 'llm3 experiment --help'.",
     "walks.toml --set planner=rrt": "walks.toml: unknown field `planner`, expected name, problems, methods, title, "
-    "attempts, first_seed, run, layouts, published - at `$`",
+    "attempts, first_seed, run, layouts, published, budgets - at `$`",
     "walks.toml --attempts ten": "walks.toml: Expected `int`, got `str` - at `$.attempts`",
     "walks.toml --set run.planner=rrt": "unknown planner 'rrt'; did you mean 'birrt'? Known: birrt, ompl-bitstar, "
     "ompl-lbkpiece, ompl-rrtconnect.",

@@ -1,6 +1,7 @@
 """What an experiment's file may say, and what it stands for."""
 
 from contextlib import suppress
+from dataclasses import fields
 
 import pytest
 from experiment_files import CORRIDOR, TOML, experiment
@@ -8,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from llm3.errors import InputError, LLM3Error, UsageError
-from llm3.experiments import experiment_of, overridden, parse_toml
+from llm3.experiments import Budgets, experiment_of, overridden, parse_toml
 from llm3.jsonio import dumps, loads
 
 NAMES = st.text("abc XYZ.-_", min_size=1, max_size=8).filter(str.strip)
@@ -91,6 +92,32 @@ def test_problems_of_one_domain_are_called_by_their_setting():
     assert [problem.name for problem in found.problems] == ["wide"]
 
 
+WHOLE = st.lists(st.integers(-3, 30), max_size=5)
+
+
+@given(st.sampled_from([field.name for field in fields(Budgets)]), WHOLE)
+def test_budgets_are_whole_numbers_from_1_on_that_grow(measure, amounts):
+    if sorted({*amounts, 0}) == [0, *amounts]:
+        found = experiment(budgets={measure: amounts}).budgets
+        assert getattr(found, measure) == tuple(amounts)
+        assert found.by_measure == ({measure: tuple(amounts)} if amounts else {})
+    else:
+        with pytest.raises(InputError) as caught:
+            experiment(budgets={measure: amounts})
+        assert str(caught.value) == (
+            f"walks.toml: the budgets of {measure} must be whole numbers from 1 on, each larger than the one before, "
+            f"not {amounts} - at `$.budgets`"
+        )
+
+
+def test_budgets_change_no_run():
+    asked = experiment(budgets={"tokens": [2000], "llm_calls": [1, 5]})
+    assert asked.budgets == Budgets(llm_calls=(1, 5), tokens=(2000,))
+    assert list(asked.budgets.by_measure) == ["llm_calls", "tokens"]
+    assert list(asked.jobs()) == list(experiment().jobs())
+    assert asked.only(("random",)).budgets == Budgets()
+
+
 def test_an_experiment_survives_its_way_to_json_and_back():
     made = experiment(
         layouts=[
@@ -101,6 +128,7 @@ def test_an_experiment_survives_its_way_to_json_and_back():
             }
         ],
         published=[{"source": "s", "measures": ["success"], "figures": {"random": {"default": [50]}}}],
+        budgets={"motion_calls": [10, 20], "seconds": [60]},
     )
     assert loads(dumps(made), type(made), "") == made
 
@@ -122,6 +150,36 @@ WRONG = {
     "figures that do not fit": (
         {"published": [{"source": "", "measures": ["success"], "figures": {"random": {"default": [1, 2]}}}]},
         "walks.toml: the figures of 'random' on 'default' must be 1 numbers, success, not 2 - at `$.published[0]`",
+    ),
+    "budgets of nothing known": (
+        {"budgets": {"speed": [1]}},
+        "walks.toml: unknown field `speed`, expected llm_calls, motion_calls, tokens, seconds - at `$.budgets`",
+    ),
+    "budgets that shrink": (
+        {"budgets": {"llm_calls": [5, 2]}},
+        "walks.toml: the budgets of llm_calls must be whole numbers from 1 on, each larger than the one before, "
+        "not [5, 2] - at `$.budgets`",
+    ),
+    "a budget that is there twice": (
+        {"budgets": {"tokens": [2, 2]}},
+        "walks.toml: the budgets of tokens must be whole numbers from 1 on, each larger than the one before, "
+        "not [2, 2] - at `$.budgets`",
+    ),
+    "half a call": (
+        {"budgets": {"motion_calls": [1.5]}},
+        "walks.toml: Expected `int`, got `float` - at `$.budgets.motion_calls[0]`",
+    ),
+    "a budget without a list": (
+        {"budgets": {"motion_calls": 10}},
+        "walks.toml: Expected `array`, got `int` - at `$.budgets.motion_calls`",
+    ),
+    "budgets that are a list": (
+        {"budgets": [1, 2]},
+        "walks.toml: Expected `object`, got `array` - at `$.budgets`",
+    ),
+    "a budget without end": (
+        {"budgets": {"seconds": [1, float("inf")]}},
+        "walks.toml: budgets.seconds.1 must be a finite number, not inf",
     ),
     "a number without end": (
         {"run": {"max_seconds": float("inf")}},
@@ -185,7 +243,10 @@ def test_what_is_no_toml_is_told_with_its_place():
 @given(
     st.recursive(
         st.none() | st.booleans() | st.integers() | st.text(max_size=5),
-        lambda v: st.lists(v, max_size=3) | st.dictionaries(st.sampled_from([*CORRIDOR, "run", "llm"]), v, max_size=4),
+        lambda v: (
+            st.lists(v, max_size=3)
+            | st.dictionaries(st.sampled_from([*CORRIDOR, "run", "llm", "budgets", "tokens"]), v, max_size=4)
+        ),
         max_leaves=12,
     )
 )
@@ -217,6 +278,7 @@ class TestFieldsOnTheCommandLine:
             ("run.model", "openai/gpt-4.1", "openai/gpt-4.1"),
             ("methods.random.trace_size", "1", 1),
             ("methods.one random try.trace_size", "1", 1),
+            ("budgets.llm_calls", "[1, 5]", [1, 5]),
             ("problems.default.options.walls", '"0.05"', "0.05"),
         ],
     )

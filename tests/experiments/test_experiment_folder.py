@@ -164,8 +164,9 @@ class TestGoingOn:
 
     def test_how_the_tables_look_may_change(self):
         carry_out(HERE, experiment())
-        assert carry_out(HERE, experiment(title="Another title")) == []
-        assert read_experiment_folder(HERE).experiment.title == "Another title"
+        asked = experiment(title="Another title", budgets={"llm_calls": [1, 5]})
+        assert carry_out(HERE, asked) == []
+        assert read_experiment_folder(HERE).experiment == asked
 
     def test_a_folder_with_other_things_in_it_is_refused(self):
         HERE.mkdir()

@@ -3,9 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
-from llm3.experiments import Column, Experiment, Group, Layout, Method, ProblemFamily, Published, RunKey, RunLine
+from llm3.experiments import (
+    Budgets,
+    Column,
+    Experiment,
+    Group,
+    Layout,
+    Method,
+    ProblemFamily,
+    Published,
+    RunKey,
+    RunLine,
+)
 from llm3.experiments.folder import (
     EXPERIMENT_FILE,
     EXPERIMENT_FORMAT,
@@ -167,3 +179,22 @@ def table2(folder: Path) -> Path:
         for s, n in enumerate((90, 150, 88, 201, 3, 77, 140))
     ]
     return write(folder, made, [*random, *capped("LLM", "medium-small", (4, 20, 1, 9, 12, 2, 6))])
+
+
+def budgets(folder: Path) -> Path:
+    """A model, rules that stand in for one and a search on two problems, and budgets that they are asked about."""
+    made = experiment(("model", "rules", "search"), ("hard-small", "hard-large"), 7, title="Three ways to pack")
+    asked = Budgets(llm_calls=(1, 5, 20), motion_calls=(10, 50, 200), tokens=(2000, 20_000))
+    calls = {"hard-small": (1, 4, 2, 20, 5, 1, 3), "hard-large": (20, 9, 20, 20, 2, 6, 12)}
+    runs = [line for problem, counts in calls.items() for line in capped("model", problem, counts)]
+    runs[5] = run("model", "hard-small", 5, 2, "error", error="the server does not answer.")
+    for problem, counts in calls.items():
+        runs += [_alone(line, line.stats.llm_calls) for line in capped("rules", problem, counts[::-1])]
+        runs += [_alone(line, 0) for line in capped("search", problem, (3 * count for count in counts), 50)]
+    return write(folder, replace(made, budgets=asked), runs)
+
+
+def _alone(line: RunLine, calls: int) -> RunLine:
+    """The same without a model."""
+    stats = Stats(llm_calls=calls, motion_calls=line.stats.motion_calls)
+    return replace(line, model="", language_model=False, stats=stats)

@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 from command_line import environment, llm3
 from command_line import run as run_command
-from experiment_folders import PAPER, capped, experiment, run, table1, table2, write
+from experiment_folders import PAPER, budgets, capped, experiment, run, table1, table2, write
 
 from llm3.experiments import Column, Group, Layout, read_experiment_folder
 from llm3.results import as_csv, report, summarize
@@ -28,7 +28,7 @@ ENDINGS = {"text": "txt", "markdown": "md", "csv": "csv"}
 
 
 @pytest.mark.parametrize("format_", ENDINGS)
-@pytest.mark.parametrize("table", [table1, table2])
+@pytest.mark.parametrize("table", [table1, table2, budgets])
 def test_snapshot(command, cwd, table, format_):
     ended = command("results", str(table(cwd / "done")), "--format", format_)
     path = SNAPSHOTS / f"{table.__name__}.{ENDINGS[format_]}"
@@ -40,7 +40,7 @@ def test_snapshot(command, cwd, table, format_):
 
 def test_every_snapshot_is_of_a_test():
     assert {path.name for path in SNAPSHOTS.iterdir()} == {
-        f"{t}.{e}" for t in ("table1", "table2") for e in ENDINGS.values()
+        f"{t}.{e}" for t in ("table1", "table2", "budgets") for e in ENDINGS.values()
     }
 
 

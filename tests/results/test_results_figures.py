@@ -1,18 +1,17 @@
 """`llm3 results --plot`: which figures there are, and what is said of those that are not."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from experiment_folders import capped, experiment, run, table1, table2, write
-from hypothesis import given
-from hypothesis import strategies as st
+from experiment_folders import budgets, experiment, run, table1, table2, write
 
-from llm3.experiments import Experiment, Method, ProblemFamily, RunKey, record_folder
-from llm3.results.figures.budgets import steps
+from llm3.experiments import Experiment, Method, ProblemFamily, RunKey, read_experiment_folder, record_folder
 
 PNG = b"\x89PNG\r\n\x1a\n"
-ALWAYS = {"success-by-llm-calls.png", "success-by-motion-calls.png", "success-by-seconds.png", "failures-by-kind.png"}
+ALWAYS = {"success-by-motion-calls.png", "success-by-seconds.png", "failures-by-kind.png"}
+ALL = ALWAYS | {"success-by-llm-calls.png", "success-by-tokens.png"}
 VIEWED = """
 from llm3 import hookimpl
 from llm3.types import Shape
@@ -54,25 +53,15 @@ def recorded(command, install, cwd):
     return make
 
 
-@given(st.lists(st.integers(1, 20), min_size=1, max_size=12))
-def test_the_curve_is_the_share_of_runs_that_are_solved_within_x(calls):
-    runs = capped("one", "hard-small", calls)
-    x, shares = steps(runs, "llm_calls", 20.0)
-    assert x == sorted(x)
-    assert shares == sorted(shares)
-    for budget in range(20):
-        reached = [share for at, share in zip(x, shares, strict=True) if at <= budget][-1]
-        assert reached == pytest.approx(sum(c <= budget for c in calls) / len(calls))
-
-
 def test_every_figure_is_a_png_and_the_tables_are_printed_all_the_same(command, cwd):
     plain = command("results", str(table2(cwd / "done")))
     ended = command("results", "done", "--plot", "new/figures")
     assert (ended.code, ended.out) == (0, plain.out)
-    assert figures(Path("new/figures")) == ALWAYS
+    assert figures(Path("new/figures")) == ALL
     assert ended.err.splitlines() == [
         "new/figures/success-by-llm-calls.png",
         "new/figures/success-by-motion-calls.png",
+        "new/figures/success-by-tokens.png",
         "new/figures/success-by-seconds.png",
         "new/figures/failures-by-kind.png",
         "'done' holds no records of its runs: the layouts that they tried are not drawn.",
@@ -83,7 +72,7 @@ def test_the_same_results_give_the_same_bytes(command, cwd):
     table2(cwd / "done")
     for folder in ("one", "two"):
         assert command("results", "done", "--plot", folder, "--no-seconds").code == 0
-    assert figures(Path("one")) == ALWAYS - {"success-by-seconds.png"}
+    assert figures(Path("one")) == ALL - {"success-by-seconds.png"}
     for path in Path("one").iterdir():
         assert path.read_bytes() == (Path("two") / path.name).read_bytes()
 
@@ -91,17 +80,17 @@ def test_the_same_results_give_the_same_bytes(command, cwd):
 def test_earlier_figures_are_replaced(command, cwd):
     write(cwd / "done", experiment(seeds=1), [run()])
     Path("drawn").mkdir()
-    for name in ALWAYS:
+    for name in ALL:
         (Path("drawn") / name).write_text("old", encoding="utf-8")
     assert command("results", "done", "--plot", "drawn").code == 0
-    assert figures(Path("drawn")) == ALWAYS
+    assert figures(Path("drawn")) == ALL
 
 
 @pytest.mark.slow
 def test_many_panels(command, cwd):
     table1(cwd / "done")
     assert command("results", "done", "--plot", "drawn").code == 0
-    assert figures(Path("drawn")) == ALWAYS
+    assert figures(Path("drawn")) == ALL
 
 
 def test_several_experiments_have_a_folder_each(command, cwd):
@@ -117,17 +106,36 @@ def test_an_experiment_without_runs_can_be_drawn(command, cwd):
     assert figures(Path("drawn")) == ALWAYS
 
 
+def test_what_no_method_spends_is_not_drawn(command, cwd):
+    whole = budgets(cwd / "whole")
+    assert command("results", "whole", "--plot", "drawn").code == 0
+    assert figures(Path("drawn")) == ALL
+    record = read_experiment_folder(whole)
+    for methods, drawn in ((("rules", "search"), ALL - {"success-by-tokens.png"}), (("search",), ALWAYS)):
+        made = replace(record.experiment, methods=tuple(m for m in record.experiment.methods if m.name in methods))
+        name = "-".join(methods)
+        write(cwd / name, made, [line for key, line in record.runs.items() if key.method in methods])
+        ended = command("results", name, "--plot", f"{name}-drawn")
+        assert ended.code == 0
+        assert figures(Path(f"{name}-drawn")) == drawn
+        said = f"no method of '{name}' spends tokens that are known: success-by-tokens.png is not drawn."
+        assert said in ended.err.splitlines()
+    assert ended.err.splitlines()[0] == (
+        "no method of 'search' spends model calls that are known: success-by-llm-calls.png is not drawn."
+    )
+
+
 def test_the_layouts_of_the_first_seed_with_records_are_drawn(command, recorded):
     ended = command("results", str(recorded("viewed")), "--plot", "drawn")
     assert ended.code == 0
-    assert figures(Path("drawn")) == ALWAYS | {"layouts-of-seed-1.png"}
+    assert figures(Path("drawn")) == ALL | {"layouts-of-seed-1.png"}
     assert ended.err.splitlines()[-1] == "drawn/layouts-of-seed-1.png"
 
 
 def test_a_domain_without_a_view_from_above_is_named(command, recorded):
     ended = command("results", str(recorded("corridor")), "--plot", "drawn")
     assert ended.code == 0
-    assert figures(Path("drawn")) == ALWAYS
+    assert figures(Path("drawn")) == ALL
     said = "the layouts of _one / wide $x$ / 1 are not drawn: its domain has no top view."
     assert ended.err.splitlines()[-1] == said
 
@@ -149,7 +157,7 @@ def test_a_record_that_cannot_be_read_is_named(command, recorded):
     events.unlink()
     ended = command("results", str(folder), "--plot", "drawn")
     assert ended.code == 0
-    assert figures(Path("drawn")) == ALWAYS
+    assert figures(Path("drawn")) == ALL
     said = f"the layouts of _one / wide $x$ / 1 are not drawn: {events}: No such file or directory"
     assert ended.err.splitlines()[-1] == said
 

@@ -7,30 +7,38 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from llm3.experiments import Experiment, RunLine
+from llm3.results.cells import runs_of
 from llm3.results.figures.canvas import SMALL, color, dash, grid, label, panels, save
 from llm3.results.measures import MACHINE, VALUES, is_attempt
-from llm3.results.proportions import share_estimate
 from llm3.results.summary import Summary
+from llm3.results.within import UNITS, curve, is_spent
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-BUDGETS = {"llm_calls": "model calls", "motion_calls": "motion calls", "seconds": "time / s"}
 SPARSE = (0, (1, 4))
 WIDE = 50
 """Where the largest value is so many times the smallest, the axis is logarithmic."""
 
 
-def draw_budgets(summary: Summary, folder: Path, seconds: bool) -> Iterator[Path]:
-    """One figure for each kind of budget."""
-    for measure, unit in BUDGETS.items():
-        if seconds or measure not in MACHINE:
-            yield _draw(summary, measure, unit, folder / f"success-by-{measure.replace('_', '-')}.png")
+def draw_budgets(summary: Summary, folder: Path, seconds: bool) -> Iterator[Path | str]:
+    """One figure for each kind of budget, or a sentence that says why it is not drawn."""
+    record = summary.record
+    attempts = [list(filter(is_attempt, runs_of(record, m.name, None))) for m in record.experiment.methods]
+    for measure, unit in UNITS.items():
+        if measure in MACHINE and not seconds:
+            continue
+        path = folder / f"success-by-{measure.replace('_', '-')}.png"
+        if any(is_spent(runs, measure) for runs in attempts):
+            drawn = [runs if is_spent(runs, measure) else [] for runs in attempts]
+            yield _draw(record.experiment, drawn, measure, path)
+        else:
+            yield f"no method of '{record.folder}' spends {unit} that are known: {path.name} is not drawn."
 
 
-def _draw(summary: Summary, measure: str, unit: str, path: Path) -> Path:
-    experiment = summary.record.experiment
+def _draw(experiment: Experiment, attempts: Sequence[Sequence[RunLine]], measure: str, path: Path) -> Path:
+    """The attempts are those of each method; a method without any has no curve."""
     problems = experiment.problems
     rows, columns = grid(len(problems))
     figure, axes = panels(rows, columns)
@@ -38,37 +46,30 @@ def _draw(summary: Summary, measure: str, unit: str, path: Path) -> Path:
     for axis in flat[len(problems) :]:
         axis.remove()
     for axis, problem in zip(flat, problems, strict=False):
-        runs = {c.method: list(filter(is_attempt, c.ended)) for c in summary.cells if c.problem == problem.name}
+        runs = [[run for run in ours if run.key.problem == problem.name] for ours in attempts]
         _panel(axis, runs, measure)
         if measure == "llm_calls":
             _published(axis, experiment, problem.name)
         axis.set_title(label(problem.name), fontsize=SMALL + 1)
-        axis.set_xlabel(unit, fontsize=SMALL)
+        axis.set_xlabel(UNITS[measure], fontsize=SMALL)
         axis.set_ylabel("runs solved / %", fontsize=SMALL)
     _legend(figure, experiment, measure == "llm_calls" and any("success" in p.measures for p in experiment.published))
     return save(figure, path)
 
 
-def steps(runs: Sequence[RunLine], measure: str, last: float) -> tuple[list[float], list[float]]:
-    """Where the share of runs that are solved within x rises, and to what; runs are solved or not, at least one."""
-    solved = sorted(VALUES[measure](run) for run in runs if run.solved)
-    shares = [(number + 1) / len(runs) for number in range(len(solved))]
-    return [0.0, *solved, last], [0.0, *shares, shares[-1] if shares else 0.0]
-
-
-def _panel(axis: Axes, runs: dict[str, list[RunLine]], measure: str) -> None:
-    found = [VALUES[measure](run) for lines in runs.values() for run in lines]
+def _panel(axis: Axes, runs: Sequence[Sequence[RunLine]], measure: str) -> None:
+    found = [VALUES[measure](run) for lines in runs for run in lines]
     last, smallest = max(found, default=1.0), min((x for x in found if x > 0), default=1.0)
     if last > WIDE * smallest:
         axis.set_xscale("log")
         axis.set_xlim(smallest / 1.5, last * 1.1)
-    for index, lines in enumerate(runs.values()):
+    for index, lines in enumerate(runs):
         if not lines:
             continue
-        x, shares = steps(lines, measure, last)
-        bands = [share_estimate(round(share * len(lines)), len(lines)).interval or (0.0, 1.0) for share in shares]
-        low, high = ([100 * band[end] for band in bands] for end in (0, 1))
-        axis.step(x, [100 * s for s in shares], where="post", color=color(index), linestyle=dash(index), linewidth=1.2)
+        x, shares = curve(lines, measure, last)
+        low, high = ([100 * (share.interval or (0, 1))[end] for share in shares] for end in (0, 1))
+        means = [100 * share.mean for share in shares]
+        axis.step(x, means, where="post", color=color(index), linestyle=dash(index), linewidth=1.2)
         axis.fill_between(x, low, high, step="post", color=color(index), alpha=0.12, linewidth=0)
     axis.set_ylim(-2, 102)
 

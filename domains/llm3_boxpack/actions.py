@@ -14,6 +14,13 @@ PLACE = ActionSchema(
 )
 
 
-def skeleton(instance: BoxpackInstance) -> tuple[Sketch, ...]:
-    """Pick and place each box, in the order in which they are listed."""
+def pieces(instance: BoxpackInstance) -> tuple[tuple[Sketch, ...], ...]:
+    """For each box, and for each thing that is in the way, a pick and a place."""
+    return tuple((Sketch(PICK.name, (thing.name,)), Sketch(PLACE.name, (thing.name,))) for thing in instance.things)
+
+
+def skeleton(instance: BoxpackInstance) -> tuple[Sketch, ...] | None:
+    """Pick and place each box, in the order in which they are listed; None where things may have to be moved first."""
+    if instance.clutter:
+        return None
     return tuple(Sketch(action.name, (box.name,)) for box in instance.boxes for action in (PICK, PLACE))

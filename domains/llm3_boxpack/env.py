@@ -17,30 +17,30 @@ from llm3_bullet.workcell import Workcell
 
 
 class BoxpackEnv(TabletopEnv):
-    """Boxes, a basket and an arm."""
+    """Boxes, a basket, what is in the way, and an arm."""
 
-    def __init__(self, instance: BoxpackInstance, workcell: Workcell, wall_height: float = 0.0) -> None:
+    def __init__(self, instance: BoxpackInstance, workcell: Workcell, wall_height: float | None = None) -> None:
         """Set up the world.
 
         Args:
             instance: The problem.
             workcell: The robot and its simulators; the Env owns them from now on.
-            wall_height: Height of the basket's walls in metres; 0 for none.
+            wall_height: How high the basket's walls are, in metres; None for those of the problem.
 
         Raises:
             InputError: It cannot begin, or not with this robot; see `Tabletop`.
         """
-        self._instance, self._wall_height = instance, wall_height
-        floors = (instance.basket.floor,)
-        boxes = (box.standing(support_height(floors, box.footprint)) for box in instance.boxes)
-        areas = {"basket": instance.basket.area}
-        things = furniture(instance.basket, wall_height)
-        super().__init__(Tabletop(workcell, things, boxes, floors, areas, instance.to_move))
+        self._instance = instance.with_walls(wall_height)
+        basket = self._instance.basket
+        floors = (basket.floor,)
+        things = (thing.standing(support_height(floors, thing.footprint)) for thing in instance.things)
+        areas = {"basket": basket.area}
+        super().__init__(Tabletop(workcell, furniture(basket), things, floors, areas, instance.to_move))
 
     @property
     def task(self) -> str:
         """The task in prose."""
-        return task_text(self.tabletop.workcell.gripper, self._wall_height)
+        return task_text(self._instance, self.tabletop.workcell.gripper)
 
     @property
     def schemas(self) -> tuple[ActionSchema, ...]:
@@ -48,8 +48,8 @@ class BoxpackEnv(TabletopEnv):
         return PICK, PLACE
 
     def describe(self, state: State) -> tuple[Entity, ...]:
-        """The basket and the boxes, to the millimetre."""
-        return describe(self._instance, state)
+        """The basket, the boxes and what is in the way, to the millimetre."""
+        return describe(self._instance, self.tabletop.workcell.gripper, state)
 
     def prepare(self, state: State, action: Action, rng: np.random.Generator) -> MotionProblem | Failure:
         """A path to above the box or the place, from which the hand can come down and get away again."""

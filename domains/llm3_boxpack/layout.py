@@ -10,13 +10,13 @@ from llm3_bullet.tabletop.table import table
 WALL_THICKNESS = 0.004
 
 
-def furniture(basket: BasketSpec, wall_height: float) -> tuple[Box, ...]:
+def furniture(basket: BasketSpec) -> tuple[Box, ...]:
     """The table, the basket's floor and, if they have a height, its walls."""
     (x, y), (dx, dy) = basket.center, basket.size
     tray = Box("basket", (dx, dy, TRAY_THICKNESS), Pose((x, y, TRAY_THICKNESS / 2)), fixed=True)
-    if not wall_height:
+    if not basket.walls:
         return table(), tray
-    z, t = wall_height / 2, WALL_THICKNESS
+    z, t = basket.walls / 2, WALL_THICKNESS
     walls = (
         ((t, dy + 2 * t), (x - (dx + t) / 2, y)),
         ((t, dy + 2 * t), (x + (dx + t) / 2, y)),
@@ -27,7 +27,7 @@ def furniture(basket: BasketSpec, wall_height: float) -> tuple[Box, ...]:
         table(),
         tray,
         *(
-            Box(name, (*size, wall_height), Pose((*center, z)), fixed=True)
+            Box(name, (*size, basket.walls), Pose((*center, z)), fixed=True)
             for name, (size, center) in zip(WALLS, walls, strict=True)
         ),
     )

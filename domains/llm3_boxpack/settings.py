@@ -1,51 +1,47 @@
-"""The paper's settings: three sets of boxes times three baskets, and where the boxes start.
-
-The sizes are those of the published implementation's settings. Start poses are drawn from a seed.
-"""
+"""The settings: the paper's nine, and families that are made from solutions. A seed draws the problem."""
 
 from __future__ import annotations
 
-import numpy as np
-
 from llm3.seeding import generator
-from llm3_boxpack.instance import BasketSpec, BoxpackInstance, BoxSpec
+from llm3.types import Action
+from llm3_boxpack import paper_settings
+from llm3_boxpack.families.clutter import clutter
+from llm3_boxpack.families.dense import dense
+from llm3_boxpack.families.draft import Draft
+from llm3_boxpack.families.far import far
+from llm3_boxpack.families.hand import Hand
+from llm3_boxpack.families.lanes import lanes
+from llm3_boxpack.instance import BoxpackInstance
+from llm3_bullet.robots.panda import panda
 
-Size = tuple[float, float, float]
-_CUBE: Size = (0.07, 0.07, 0.07)
-_POST: Size = (0.035, 0.035, 0.07)
-_SLAB: Size = (0.035, 0.035, 0.04)
-_BAR: Size = (0.105, 0.035, 0.07)
-
-BOX_SETS: dict[str, dict[str, Size]] = {
-    "easy": {"red_box": _POST, "blue_box": _CUBE, "green_box": _POST, "tan_box": _POST},
-    "medium": {"cyan_box": _CUBE, "blue_box": _CUBE, "red_box": _SLAB, "yellow_box": _SLAB},
-    "hard": {"red_box": _CUBE, "blue_box": _CUBE, "green_box": _BAR, "tan_box": _POST},
-}
-BASKETS: dict[str, BasketSpec] = {
-    "small": BasketSpec((0.65, 0.0), (0.22, 0.21)),
-    "medium": BasketSpec((0.70, 0.0), (0.32, 0.21)),
-    "large": BasketSpec((0.75, 0.0), (0.42, 0.21)),
-}
-SETTINGS = tuple(f"{boxes}-{basket}" for boxes in BOX_SETS for basket in BASKETS)
-START_X = (0.385, 0.395)
-"""The boxes start in a row: x is drawn from here, in metres, …"""
-START_Y = (-0.6, 0.6)
-"""… and y from a lane of the box's own in here, in random order."""
-LANE_GAP = 0.1
-"""Free space in metres between the boxes of neighbouring lanes: room for two hands side by side."""
+FAMILIES = {"dense": dense, "far": far, "clutter": clutter, "lanes": lanes}
+"""What makes the problems of a family, and proves that they can be solved, by its name."""
+SIZES = {"dense": (6, 8, 10, 12), "far": (4, 8), "clutter": (4, 8), "lanes": (4, 8)}
+"""How many boxes there are."""
+DRAFTS = 3000
+"""How many are drawn for a problem at most; most problems take a few."""
+MADE = tuple(f"{family}-{count}" for family, counts in SIZES.items() for count in counts)
+SETTINGS = (*paper_settings.SETTINGS, *MADE)
 
 
 def generate(setting: str, seed: int) -> BoxpackInstance:
-    """The instance of a setting, such as ``"hard-small"``, and a seed."""
-    boxes, basket = setting.split("-")
-    rng = generator("boxpack", setting, seed)
-    sizes = BOX_SETS[boxes]
-    lanes = np.linspace(*START_Y, len(sizes) + 1)
-    placed: list[BoxSpec] = []
-    for lane, name in enumerate(rng.permutation(list(sizes)).tolist()):
-        size = sizes[name]
-        margin = (size[1] + LANE_GAP) / 2
-        x, y = rng.uniform(*START_X), rng.uniform(lanes[lane] + margin, lanes[lane + 1] - margin)
-        placed.append(BoxSpec(name, size, (round(float(x), 3), round(float(y), 3))))
-    placed.sort(key=lambda box: list(sizes).index(box.name))
-    return BoxpackInstance(BASKETS[basket], tuple(placed))
+    """The instance of a setting, such as ``"hard-small"`` or ``"dense-8"``, and a seed."""
+    return _draft(setting, seed).instance if setting in MADE else paper_settings.generate(setting, seed)
+
+
+def solution(setting: str, seed: int) -> tuple[Action, ...] | None:
+    """Actions that solve the instance of a setting and a seed; None where none are known."""
+    return _draft(setting, seed).solution if setting in MADE else None
+
+
+def _draft(setting: str, seed: int) -> Draft:
+    family, count = setting.split("-")
+    fingers = panda().fingers
+    if fingers is None:
+        raise TypeError("the problems are made for fingers")
+    hand, rng = Hand.of(fingers), generator("boxpack", setting, seed)
+    drafts = (FAMILIES[family](int(count), hand, rng) for _ in range(DRAFTS))
+    draft = next((draft for draft in drafts if draft and draft.is_proven(hand)), None)
+    if draft is None:
+        raise RuntimeError(f"none of {DRAFTS} drafts of {setting}, seed {seed}, is one that the hand can do")
+    return draft

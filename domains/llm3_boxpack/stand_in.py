@@ -1,6 +1,7 @@
 """A rule-based stand-in for a language model: rules of thumb for packing, and for learning from feedback.
 
-It reads what a prompt tells and nothing else. It does not know how far the arm reaches or how much room the fingers
+It reads what a prompt tells and nothing else. Where that is how high the hand is, it reckons with it, see `careful`;
+elsewhere it goes by experience: it does not know how far the arm reaches or how much room the fingers
 really need: it starts with a guess, and corrects its plans as the feedback suggests.
 """
 
@@ -16,6 +17,7 @@ import numpy as np
 from llm3.parsing import parse_reply
 from llm3.types import Action, Context, Entity, FailureKind, Feedback, Proposal
 from llm3_boxpack.actions import PICK, PLACE
+from llm3_boxpack.careful import careful_reply, is_told
 from llm3_boxpack.packing import Spot, Wishes, choose_spot
 
 FIRST_GAP, GAP_STEP, LARGEST_GAP = 0.005, 0.015, 0.05
@@ -49,8 +51,10 @@ class Lesson:
 
 def reply(context: Context, rng: np.random.Generator) -> str:
     """A reply in the format that the prompt asks for."""
+    if is_told(context):
+        return careful_reply(context, rng)
     lessons = [_lesson(context, feedback) for feedback in context.trace if feedback.remarks]
-    boxes = {entity.name: entity for entity in context.state if entity.name in context.objects}
+    boxes = {entity.name: entity for entity in context.state if _is_box(entity, context)}
     kept, reasoning = _kept(lessons)
     spots = {a.objects[0]: _spot(a, boxes[a.objects[0]]) for a in kept}
     plan: list[Action] = []
@@ -62,6 +66,10 @@ def reply(context: Context, rng: np.random.Generator) -> str:
         plan.append(Action(PICK.name, (name,)))
         plan.append(Action(PLACE.name, (name,), {"x": spot.x, "y": spot.y, "theta": spot.theta}))
     return json.dumps({"Reasoning": reasoning, "Full Plan": [str(action) for action in plan]})
+
+
+def _is_box(entity: Entity, context: Context) -> bool:
+    return entity.name in context.objects and entity.properties.get("to be packed") != "no"
 
 
 def _lesson(context: Context, feedback: Feedback) -> Lesson:

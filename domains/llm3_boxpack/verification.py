@@ -19,20 +19,20 @@ OUT_OF_BASKET = 0.001
 class BoxpackVerifier(PlanVerifier):
     """Plays plans of one instance."""
 
-    def __init__(self, instance: BoxpackInstance, robot: RobotDescription, wall_height: float) -> None:
+    def __init__(self, instance: BoxpackInstance, robot: RobotDescription, wall_height: float | None) -> None:
         """Take the problem.
 
         Args:
             instance: The boxes and the basket.
             robot: What packs them.
-            wall_height: Height of the basket's walls in metres; 0 for none.
+            wall_height: How high the basket's walls are, in metres; None for those of the problem.
         """
-        self._instance, self._robot, self._wall_height = instance, robot, wall_height
+        self._instance, self._robot = instance.with_walls(wall_height), robot
 
     def verify(self, start: State, actions: tuple[PlannedAction, ...]) -> Verification:
         """Play the plan in a world of its own."""
-        fixed = furniture(self._instance.basket, self._wall_height)
-        sizes = {box.name: box.size for box in self._instance.boxes}
+        fixed = furniture(self._instance.basket)
+        sizes = {thing.name: thing.size for thing in self._instance.things}
         return second_look(self._robot, fixed, sizes, start, actions, _check_deed, self._check_goal)
 
     def _check_goal(self, playback: Playback) -> None:

@@ -3,37 +3,87 @@
 from __future__ import annotations
 
 from llm3.types import Entity, State
-from llm3_boxpack.instance import TRAY_THICKNESS, BoxpackInstance
-from llm3_bullet.robot import Gripper
+from llm3_boxpack.instance import TRAY_THICKNESS, BoxpackInstance, BoxSpec
+from llm3_bullet.robot import Gripper, ParallelGripper
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights
 from llm3_bullet.tabletop.wording import box_entity, gripper_text
 
 
-def task_text(gripper: Gripper, wall_height: float) -> str:
-    """The task in prose; lengths are those of the robot and the options in use."""
-    walls = f" It has walls {wall_height:g} m high." if wall_height else " It has no walls."
+def task_text(instance: BoxpackInstance, gripper: Gripper) -> str:
+    """The task in prose; lengths are those of the robot and the problem in use."""
+    height = instance.basket.walls
+    walls = f" It has walls {height:g} m high." if height else " It has no walls."
+    others = " What is not to be packed may end anywhere." if instance.clutter else ""
     return (
         "A robot arm packs boxes into a basket on a table. The arm stands at (0, 0) and faces the positive x axis; "
         "y points to its left and z points up. The table's surface is at z = 0. Lengths are in metres, angles in "
         "radians.\n"
         f"The basket is a flat tray whose sides are parallel to x and y.{walls}\n"
         "The goal: every box lies in the basket with its whole footprint, and the gripper is empty. Boxes must not "
-        "be put on top of one another.\n"
-        f"{gripper_text(gripper)}"
+        f"be put on top of one another.{others}\n"
+        f"{gripper_text(gripper)}{_heights_text(instance, gripper)}"
     )
 
 
-def describe(instance: BoxpackInstance, state: State) -> tuple[Entity, ...]:
-    """The basket and the boxes, to the millimetre."""
+def _heights_text(instance: BoxpackInstance, gripper: Gripper) -> str:
+    """What the hand passes over, where it matters and is known."""
+    if not _tells_heights(instance, gripper):
+        return ""
+    return (
+        "\nThe hand passes over what is lower than it. Of each box is told how high the fingertips and the palm are "
+        "above what it stands on when the gripper takes it or lets go of it. What is higher than the fingertips must "
+        "not be where a finger is: beside the middle of each of the two faces. What is higher than the palm must not "
+        "be below it: its middle is above that of the box, and it is longest from finger to finger."
+    )
+
+
+def _tells_heights(instance: BoxpackInstance, gripper: Gripper) -> bool:
+    known = isinstance(gripper, ParallelGripper) and gripper.finger_width > 0 and min(gripper.palm_size) > 0
+    return known and bool(instance.basket.walls or instance.clutter)
+
+
+def describe(instance: BoxpackInstance, gripper: Gripper, state: State) -> tuple[Entity, ...]:
+    """The basket, the boxes and what is in the way, to the millimetre; and the hand, where its height matters."""
+    things = tuple(_entity(instance, gripper, state, thing) for thing in instance.things)
+    hand = (_hand(gripper),) if _tells_heights(instance, gripper) and isinstance(gripper, ParallelGripper) else ()
+    return (_tray(instance), *things, *hand)
+
+
+def _tray(instance: BoxpackInstance) -> Entity:
     basket = instance.basket
     (x, y), (dx, dy) = basket.center, basket.size
-    tray = Entity(
+    return Entity(
         "basket",
         {
             "center": (x, y),
             "x range": (round(x - dx / 2, 3), round(x + dx / 2, 3)),
             "y range": (round(y - dy / 2, 3), round(y + dy / 2, 3)),
             "floor height": TRAY_THICKNESS,
+            **({"wall height": basket.walls} if basket.walls else {}),
         },
     )
-    boxes = (box_entity(box.name, box.size, state.poses.get(box.name)) for box in instance.boxes)
-    return (tray, *boxes)
+
+
+def _hand(gripper: ParallelGripper) -> Entity:
+    along, across = gripper.palm_size
+    return Entity(
+        "hand",
+        {
+            "fingers reach beyond a face": round(gripper.finger_reach + OPENING_MARGIN / 2, 3),
+            "finger width": round(gripper.finger_width, 3),
+            "palm length": round(along, 3),
+            "palm width": round(across, 3),
+        },
+    )
+
+
+def _entity(instance: BoxpackInstance, gripper: Gripper, state: State, thing: BoxSpec) -> Entity:
+    entity = box_entity(thing.name, thing.size, state.poses.get(thing.name))
+    more: dict[str, str | float] = {}
+    if instance.clutter:
+        more["to be packed"] = "yes" if thing in instance.boxes else "no"
+    if _tells_heights(instance, gripper) and isinstance(gripper, ParallelGripper):
+        size = entity.properties["size"]
+        tips, palm = hand_heights(size[2] if isinstance(size, tuple) else thing.size[2], gripper)
+        more |= {"fingertips": round(tips, 3), "palm": round(palm, 3)}
+    return Entity(thing.name, {**entity.properties, **more}) if more else entity

@@ -30,6 +30,13 @@ class ParallelGripper:
     """Unit vector in the tool frame along which the fingers close."""
     palm_height: float
     """Distance from the tool point back to the palm, in metres."""
+    tip_depth: float = 0.0
+    """How far the fingers' tips are beyond the tool point, in metres. With this and what follows a model is told what
+    the hand passes over; without, it is not."""
+    finger_width: float = 0.0
+    """Of a finger across the closing direction, in metres; 0 if it is not known."""
+    palm_size: tuple[float, float] = (0.0, 0.0)
+    """Full lengths of the palm along the closing direction and across it, in metres; 0 if they are not known."""
 
     def __post_init__(self) -> None:
         if len(self.joints) != 2:

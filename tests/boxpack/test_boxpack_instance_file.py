@@ -130,7 +130,7 @@ def test_a_position_that_is_no_number_is_refused():
 
 
 def test_the_names_that_are_taken_are_those_of_the_furniture():
-    names = [thing.name for thing in furniture(BasketSpec((0.65, 0.0), (0.22, 0.21)), 0.1)]
+    names = [thing.name for thing in furniture(BasketSpec((0.65, 0.0), (0.22, 0.21), 0.1))]
     assert [*names, "itself"] == TAKEN.split(", ")
 
 

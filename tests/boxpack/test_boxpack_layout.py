@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -23,7 +25,7 @@ def test_a_box_stands_on_the_tray_where_it_overlaps_it_and_else_on_the_table(cen
 
 
 def test_without_walls_there_are_the_table_and_the_tray():
-    table, tray = furniture(BASKET, 0.0)
+    table, tray = furniture(BASKET)
     assert (table.name, tray.name) == ("table", "basket")
     assert table.pose.position[2] + table.size[2] / 2 == 0.0
     assert tray.size == (0.22, 0.21, TRAY_THICKNESS)
@@ -34,7 +36,7 @@ def test_without_walls_there_are_the_table_and_the_tray():
 
 @given(st.floats(0.01, 0.2))
 def test_walls_stand_around_the_tray_and_leave_its_inside_free(height):
-    walls = furniture(BASKET, round(height, 3))[2:]
+    walls = furniture(replace(BASKET, walls=round(height, 3)))[2:]
     assert [w.name for w in walls] == [f"basket_wall_{side}" for side in ("front", "back", "right", "left")]
     areas = [Rectangle(w.pose.position[:2], w.size[:2]) for w in walls]
     shrunk = Rectangle(BASKET.center, (BASKET.size[0] - 1e-9, BASKET.size[1] - 1e-9))

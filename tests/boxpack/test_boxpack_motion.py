@@ -123,7 +123,7 @@ def test_after_a_place_everything_is_at_rest(workcell, steps):
     for number in PLACES:
         poses = steps[number][2].poses
         boxes = [Box(name, sizes[name], pose) for name, pose in poses.items()]
-        again = workcell.settler.settle((*furniture(INSTANCE.basket, 0.0), *boxes))
+        again = workcell.settler.settle((*furniture(INSTANCE.basket), *boxes))
         for name, pose in poses.items():
             change = np.subtract(again[name].position, pose.position)
             # Both are on the grid of states, so a change of less than 0.1 mm may show as one step of it.

@@ -75,6 +75,12 @@ def top_grasps(center: NDArray[np.float64], standing: Stance, gripper: Gripper) 
     )
 
 
+def hand_heights(height: float, gripper: ParallelGripper) -> tuple[float, float]:
+    """How high the fingers' tips and the palm are above what a box of this height stands on; all in metres."""
+    tool = height / 2 + _above_center(height, gripper)
+    return tool - gripper.tip_depth, tool + gripper.palm_height
+
+
 def _above_center(height: float, gripper: ParallelGripper) -> float:
     return max(min(ABOVE_CENTER, height / 4), height / 2 + PALM_GAP - gripper.palm_height)
 

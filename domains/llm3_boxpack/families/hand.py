@@ -1,0 +1,114 @@
+"""The space that a hand with two fingers takes around a box: with it a spot is one for the gripper, too.
+
+Lengths in millimetres. The hand comes straight down and goes straight up again, so it takes a space above a height:
+between the fingers' tips and the palm that of two fingers, and from the palm on all that is below the flange.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from math import ceil, inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from llm3_boxpack.families.standing import Standing, table_of
+from llm3_bullet.robot import ParallelGripper
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights, widest
+
+GAP = 3.0
+"""Between two boxes, and between a box and a wall."""
+MARGIN = 2.0
+"""More than the hand's own size: PyBullet's meshes are 1 mm thicker than drawn, and no hand is quite symmetrical."""
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Space:
+    """A block of space above a height, beside the centre of a box."""
+
+    x: float
+    y: float
+    dx: float
+    dy: float
+    low: float
+    """Above the table."""
+
+
+@dataclass(frozen=True)
+class Hand:
+    """What a gripper needs beside a box to take it, or to let go of it."""
+
+    finger_reach: float
+    """How far a finger stands out beyond the box when it is open around it."""
+    finger_width: float
+    palm_size: tuple[float, float]
+    """Along the line from finger to finger, and across."""
+    heights: Callable[[float], tuple[float, float]]
+    """How high the fingers' tips and the palm are above what a box of some height stands on."""
+    widest: float = inf
+    """What fits between the fingers."""
+
+    @staticmethod
+    def of(gripper: ParallelGripper) -> Hand:
+        """That of a gripper of which all sizes are known."""
+
+        def heights(height: float) -> tuple[float, float]:
+            tips, palm = hand_heights(height / 1000, gripper)
+            return 1000 * tips, 1000 * palm
+
+        along, across = gripper.palm_size
+        return Hand(
+            1000 * (gripper.finger_reach + OPENING_MARGIN / 2),
+            1000 * gripper.finger_width,
+            (1000 * along, 1000 * across),
+            heights,
+            1000 * widest(gripper),
+        )
+
+    @property
+    def room(self) -> float:
+        """What a finger needs beside a box, in whole millimetres."""
+        return float(ceil(self.finger_reach + MARGIN))
+
+    def spaces(self, box: Standing) -> tuple[Space, ...]:
+        """Fingers and palm: across the two long sides, which are closer together."""
+        along, across = (length + 2 * MARGIN for length in self.palm_size)
+        width, reach = self.finger_width + 2 * MARGIN, self.finger_reach + MARGIN
+        tips, palm = (box.bottom + height - MARGIN for height in self.heights(box.height))
+        beside = (min(box.dx, box.dy) + reach) / 2
+        parts = ((-beside, reach, width, tips), (beside, reach, width, tips), (0.0, along, across, palm))
+        if box.is_along_y:
+            return tuple(Space(offset, 0.0, length, side, low) for offset, length, side, low in parts)
+        return tuple(Space(0.0, offset, side, length, low) for offset, length, side, low in parts)
+
+    def in_the_way(self, box: Standing, others: Iterable[Standing]) -> tuple[str, ...]:
+        """What the hand would touch there; what the box itself would touch does not count."""
+        rows = tuple(others)
+        blocked = np.zeros(len(rows), dtype=bool)
+        for space in self.spaces(box):
+            blocked |= _touching(space, np.array([[box.x, box.y]]), rows)[0]
+        return tuple(thing.name for thing, is_blocked in zip(rows, blocked, strict=True) if is_blocked)
+
+    def free(self, box: Standing, centers: NDArray[np.float64], others: Iterable[Standing]) -> Mask:
+        """At which of the centres (K, 2) there is room for the box and the hand."""
+        rows = tuple(others)
+        body = Space(0.0, 0.0, box.dx + 2 * GAP, box.dy + 2 * GAP, box.bottom)
+        blocked = _touching(body, centers, rows)
+        for space in self.spaces(box):
+            blocked |= _touching(space, centers, rows)
+        return np.asarray(~blocked.any(axis=1))
+
+    def is_free(self, box: Standing, others: Iterable[Standing]) -> bool:
+        """Whether there is room for box and hand where the box stands."""
+        return bool(self.free(box, np.array([[box.x, box.y]]), others)[0])
+
+
+def _touching(space: Space, centers: NDArray[np.float64], others: tuple[Standing, ...]) -> Mask:
+    """(K, N): whether the space around each centre meets each of the others."""
+    x, y, dx, dy, _, top = table_of(others).T
+    beside_x = np.abs(centers[:, :1] + space.x - x) < (space.dx + dx) / 2
+    beside_y = np.abs(centers[:, 1:] + space.y - y) < (space.dy + dy) / 2
+    return np.asarray(beside_x & beside_y & (top > space.low))

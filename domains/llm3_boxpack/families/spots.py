@@ -1,0 +1,55 @@
+"""Spots for a box among others at which there is room for the hand, too."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from llm3_boxpack.families.hand import GAP, Hand
+from llm3_boxpack.families.standing import Standing
+
+NEAREST, FARTHEST = 430.0, 770.0
+"""From the arm's base to the centre of a box, in millimetres. The arm reaches 30 mm farther. Nearer than
+this the wrist is at its limit in some directions, so that it depends on how a box was taken whether it can be put down
+there."""
+
+Centers = NDArray[np.float64]
+"""(K, 2)."""
+
+
+def flush(
+    box: Standing, there: Sequence[Standing], low: tuple[float, float], high: tuple[float, float], hand: Hand
+) -> Centers:
+    """Centres at which a box is flush with things or walls, a finger away or in line, with room for the hand.
+
+    Args:
+        box: The box, turned as it is to be.
+        there: What is there already.
+        low: The corner of the area in which the whole box has to stand, with a gap to its border,
+        high: and the opposite one.
+        hand: What puts the box down.
+    """
+    axes = (
+        _along([(t.x, t.dx) for t in there], box.dx, (low[0], high[0]), hand.room),
+        _along([(t.y, t.dy) for t in there], box.dy, (low[1], high[1]), hand.room),
+    )
+    centers = within_reach(np.array(list(product(*axes)), dtype=float).reshape(-1, 2))
+    return centers[hand.free(box, centers, there)]
+
+
+def within_reach(centers: Centers) -> Centers:
+    """Those that the arm reaches for sure."""
+    radius = np.hypot(centers[:, 0], centers[:, 1])
+    return centers[(radius >= NEAREST) & (radius <= FARTHEST)]
+
+
+def _along(there: Iterable[tuple[float, float]], side: float, ends: tuple[float, float], finger: float) -> list[float]:
+    """Coordinates along one axis."""
+    found = {ends[0] + side / 2 + GAP, ends[1] - side / 2 - GAP}
+    for center, length in there:
+        beside = (length + side) / 2
+        found |= {center + offset for gap in (GAP, finger) for offset in (-beside - gap, 0.0, beside + gap)}
+    return sorted(at for at in found if ends[0] + side / 2 + GAP <= at <= ends[1] - side / 2 - GAP)

@@ -1,0 +1,95 @@
+"""Where boxes start on the table: spread out, or so close together that the order of picking matters."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from llm3_boxpack.families.hand import Hand
+from llm3_boxpack.families.spots import FARTHEST, NEAREST, flush
+from llm3_boxpack.families.standing import Standing
+
+BEHIND = 1.5
+"""How far to the side of the arm boxes start at most, in radians from straight ahead."""
+DRAWS = 300
+"""How many spots are drawn for a box at once."""
+CHOICE = 6
+"""Among how many of the most obstructive spots one is drawn."""
+
+
+def spread(
+    boxes: Sequence[Standing],
+    there: Sequence[Standing],
+    hand: Hand,
+    rng: np.random.Generator,
+    leave: Sequence[Standing] = (),
+) -> tuple[Standing, ...] | None:
+    """Spots on the table from which each box can be taken while all others are there; None where there are none.
+
+    Args:
+        boxes: Wherever they stand; each is turned by a quarter at random.
+        there: What else can be in the way.
+        hand: What takes them.
+        rng: Draws the spots.
+        leave: What must not be harder to take than before; it is there, too.
+    """
+    done: list[Standing] = []
+    for box in boxes:
+        spot = next(_leaving_room(box, (*done, *leave), there, hand, rng), None)
+        if spot is None:
+            return None
+        done.append(spot)
+    return tuple(done)
+
+
+def _leaving_room(
+    box: Standing, others: Sequence[Standing], there: Sequence[Standing], hand: Hand, rng: np.random.Generator
+) -> Iterator[Standing]:
+    """Where the box can be taken, and is in nobody's way."""
+    way = (box.turned() if rng.random() < 0.5 else box).raised(0.0)
+    radius, angle = rng.uniform(NEAREST, FARTHEST, DRAWS), rng.uniform(-BEHIND, BEHIND, DRAWS)
+    centers = (radius * (np.cos(angle), np.sin(angle))).T.round()
+    for x, y in centers[hand.free(way, centers, (*there, *others))].tolist():
+        spot = way.at(x, y)
+        if all(hand.is_free(other, (spot,)) for other in others):
+            yield spot
+
+
+def crowded(
+    boxes: Sequence[Standing],
+    there: Sequence[Standing],
+    low: tuple[float, float],
+    high: tuple[float, float],
+    hand: Hand,
+    rng: np.random.Generator,
+) -> tuple[Standing, ...] | None:
+    """Spots close together from which the boxes can be taken in this order; None where there are none.
+
+    The last one is put down first, and each further one where it is most in the way of those that are there.
+
+    Args:
+        boxes: Wherever they stand, in the order in which they are to be taken.
+        there: What else can be in the way.
+        low: The corner of the area in which they start,
+        high: and the opposite one.
+        hand: What takes them.
+        rng: Draws the spots.
+    """
+    done: list[Standing] = []
+    for box in reversed(boxes):
+        ways = (box.raised(0.0), box.raised(0.0).turned())
+        spots = [way.at(x, y) for way in ways for x, y in flush(way, (*there, *done), low, high, hand).tolist()]
+        if not spots:
+            return None
+        middle = np.mean([(d.x, d.y) for d in done], axis=0) if done else (np.array(low) + high) / 2
+        most = max(_hindrance(spot, done, hand) for spot in spots)
+        worst = [spot for spot in spots if _hindrance(spot, done, hand) == most]
+        worst.sort(key=lambda spot: abs(spot.x - middle[0]) + abs(spot.y - middle[1]))
+        done.append(worst[int(rng.integers(min(CHOICE, len(worst))))])
+    return tuple(reversed(done))
+
+
+def _hindrance(spot: Standing, done: Sequence[Standing], hand: Hand) -> int:
+    """How many of the boxes cannot be taken because of this one."""
+    return sum(bool(hand.in_the_way(other, (spot,))) for other in done)

@@ -23,7 +23,7 @@ from llm3.types import (
     Segment,
     State,
 )
-from llm3_boxpack.domain import BoxPack
+from llm3_boxpack.paper_settings import SETTINGS
 from llm3_bullet.execution import ExecutionSettings, MotorWorld
 from llm3_bullet.tabletop.executor import TabletopExecutor
 
@@ -270,7 +270,7 @@ def test_a_plan_for_other_boxes_is_refused(executed, pick):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("setting", BoxPack.settings)
+@pytest.mark.parametrize("setting", SETTINGS)
 def test_sound_plans_end_with_the_goal_reached(domain, solve, setting):
     missed = []
     for seed in range(5):

@@ -198,7 +198,7 @@ class TestEdgeOfTheTray:
 def test_walls_of_a_height_that_cannot_be_are_refused(domain, height):
     with pytest.raises(UsageError) as error:
         domain.make(TWO, {"robot": "panda", "walls": height})
-    assert str(error.value) == f"option 'walls' must be a height from 0 to 0.2 m, not {height!r}."
+    assert str(error.value) == f"option 'walls' must be a height from 0 to 0.2 m or own, not {height!r}."
 
 
 def test_a_box_inside_of_the_arm_is_refused_when_the_world_is_made(make):

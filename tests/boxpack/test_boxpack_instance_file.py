@@ -65,7 +65,7 @@ WRONG = [
     ("boxes", {}, "Expected `array`, got `object` - at `$.boxes`"),
     ("basket.size", [0.22, 0.0], "the basket's sides must be 0.02 to 2 m, not [0.22, 0.0] - at `$.basket`"),
     ("basket.center", [3.0, 0.0], f"the basket's center must be {ON_TABLE}, not [3.0, 0.0] - at `$.basket`"),
-    ("basket.depth", 0.1, "unknown field `depth`, expected center, size - at `$.basket`"),
+    ("basket.depth", 0.1, "unknown field `depth`, expected center, size, walls - at `$.basket`"),
 ]
 
 

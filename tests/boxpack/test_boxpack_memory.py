@@ -11,7 +11,7 @@ import pytest
 from packing_world import carried_out, pick, place
 
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.settings import SETTINGS, generate
+from llm3_boxpack.paper_settings import SETTINGS, generate
 from llm3_bullet.robots import panda
 from llm3_bullet.workcell import Workcell
 

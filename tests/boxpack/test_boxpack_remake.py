@@ -16,7 +16,7 @@ from llm3.jsonio import dumps
 from llm3.records.plan import plan_file
 from llm3.registry import Registry
 from llm3_boxpack.instance import BoxSpec
-from llm3_boxpack.settings import SETTINGS
+from llm3_boxpack.paper_settings import SETTINGS
 from llm3_bullet.workcell import MOST_BODIES
 
 PANDA = {"robot": "panda", "walls": "0"}

@@ -7,7 +7,7 @@ import pytest
 from llm3.records import open_plan
 from llm3.registry import Registry
 from llm3.verification import verify
-from llm3_boxpack.settings import SETTINGS
+from llm3_boxpack.paper_settings import SETTINGS
 
 
 def test_a_search_packs_the_boxes_and_its_plan_is_sound(solve):

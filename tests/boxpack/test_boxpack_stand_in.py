@@ -201,7 +201,7 @@ class TestLearning:
 
 
 def test_random_parameters_within_the_region_run_end_to_end(solve):
-    result, _ = solve(setting="medium-small", seed=0, llm="random", max_llm_calls=1)
+    result, _ = solve(setting="medium-small", seed=0, llm="random", strategy="sample-params", max_llm_calls=1)
     (attempt,) = result.attempts
     assert result.stats.llm_calls == 1
     assert result.stats.motion_calls >= 2

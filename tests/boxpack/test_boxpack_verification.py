@@ -13,8 +13,8 @@ from llm3.interfaces import PlanVerifier
 from llm3.records import PlanFile
 from llm3.types import Action, EventKind, Held, PlannedAction, Pose, Segment, State, Verification
 from llm3_boxpack.domain import BoxPack
+from llm3_boxpack.paper_settings import SETTINGS
 
-SETTINGS = BoxPack.settings
 BOXES = "blue_box, green_box, red_box, tan_box"
 Verify = Callable[[PlanFile], Verification]
 

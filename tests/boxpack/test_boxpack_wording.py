@@ -12,7 +12,8 @@ from scipy.spatial.transform import Rotation
 
 from llm3.types import Entity, Held, Pose
 from llm3_boxpack.actions import PICK, PLACE
-from llm3_boxpack.wording import describe, task_text
+from llm3_boxpack.instance import ClutterSpec
+from llm3_boxpack.wording import task_text
 from llm3_bullet.robots import iiwa, panda
 from llm3_bullet.tabletop.grasps import OPENING_MARGIN
 
@@ -33,19 +34,66 @@ def test_the_task(make):
     assert make(TWO).task == TASK
 
 
-def test_the_task_with_walls(make):
-    assert make(TWO, 0.05).task == TASK.replace("It has no walls.", "It has walls 0.05 m high.")
+HEIGHTS = """
+The hand passes over what is lower than it. Of each box is told how high the fingertips and the palm are above what \
+it stands on when the gripper takes it or lets go of it. What is higher than the fingertips must not be where a \
+finger is: beside the middle of each of the two faces. What is higher than the palm must not be below it: its middle \
+is above that of the box, and it is longest from finger to finger."""
+
+
+def test_the_task_with_walls_tells_of_the_height_of_the_hand(make):
+    walled = TASK.replace("It has no walls.", "It has walls 0.05 m high.")
+    assert make(TWO, 0.05).task == walled + HEIGHTS
+
+
+def test_the_task_with_walls_for_a_hand_of_unknown_size():
+    walled = TASK.replace("It has no walls.", "It has walls 0.05 m high.")
+    assert task_text(TWO.with_walls(0.05), replace(panda().fingers, finger_width=0.0)) == walled
+
+
+CLUTTERED = replace(TWO, clutter=(ClutterSpec("glue_can", (0.04, 0.06, 0.026), (0.65, 0.0)),))
+
+
+def test_the_task_with_things_in_the_way(make):
+    sentence = "Boxes must not be put on top of one another."
+    assert (
+        make(CLUTTERED).task
+        == TASK.replace(sentence, f"{sentence} What is not to be packed may end anywhere.") + HEIGHTS
+    )
+
+
+def test_the_state_with_walls_and_things_in_the_way_tells_all_of_the_hand(make):
+    env = make(CLUTTERED, 0.05)
+    tray, red, _, can, hand = env.describe(env.reset())
+    assert tray.properties["wall height"] == 0.05
+    assert red == Entity(
+        "red_box",
+        {
+            "position": (0.386, -0.428, 0.035),
+            "size": CUBE,
+            "theta": 0.0,
+            "to be packed": "yes",
+            "fingertips": 0.04,
+            "palm": 0.086,
+        },
+    )
+    assert can.properties["to be packed"] == "no"
+    assert (can.properties["fingertips"], can.properties["palm"]) == (0.012, 0.058)
+    assert hand == Entity(
+        "hand",
+        {"fingers reach beyond a face": 0.03, "finger width": 0.021, "palm length": 0.208, "palm width": 0.063},
+    )
 
 
 def test_the_figures_are_those_of_the_robot_in_use():
-    text = task_text(replace(panda().fingers, max_opening=0.1, finger_reach=0.05), 0.0)
+    text = task_text(TWO, replace(panda().fingers, max_opening=0.1, finger_reach=0.05))
     assert "no more than 0.092 m apart" in text
     assert "about 0.058 m of free space" in text
 
 
 def test_with_a_suction_cup_the_task_says_how_that_takes_a_box():
     common = TASK[: TASK.index("The gripper takes")]
-    assert task_text(iiwa().gripper, 0.0) == (
+    assert task_text(TWO, iiwa().gripper) == (
         f"{common}The gripper is a suction cup, which takes a box from above by the middle of its upper face; the face "
         "must be at least 0.028 m wide. It needs no free space beside the box. When it has taken a box, or let go of "
         "it, it moves straight up."
@@ -105,7 +153,7 @@ def test_all_that_a_solution_needs_can_be_read(domain, make):
     """Where the boxes and the basket are, how large they are, and how much room the hand takes."""
     instance = domain.instance("hard-small", 0)
     env = make(instance)
-    entities = {entity.name: entity.properties for entity in describe(instance, env.reset())}
+    entities = {entity.name: entity.properties for entity in env.describe(env.reset())}
     assert set(entities) == {"basket", *env.objects}
     x, y = entities["basket"]["x range"], entities["basket"]["y range"]
     assert (x[1] - x[0], y[1] - y[0]) == pytest.approx(instance.basket.size)

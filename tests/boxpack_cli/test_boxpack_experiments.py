@@ -92,7 +92,7 @@ def test_what_a_domain_cannot_make_is_told_before_anything_is_done(tmp_path):
     )
     for more in ("", " --dry-run"):
         ended = run(llm3(f"experiment high.toml{more}"), tmp_path, environment())
-        assert ended.err == "llm3: error: option 'walls' must be a height from 0 to 0.2 m, not '9'.\n"
+        assert ended.err == "llm3: error: option 'walls' must be a height from 0 to 0.2 m or own, not '9'.\n"
         assert ended.code == 2
     assert [path.name for path in tmp_path.iterdir()] == ["high.toml"]
 

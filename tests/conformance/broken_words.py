@@ -11,7 +11,7 @@ from yard import Yard, YardInstance, YardVerifier, a_yard, tidy, with_state
 
 from llm3 import Joint, Option
 from llm3.interfaces import PlanVerifier
-from llm3.types import ActionSchema, Defect, Entity, GoalStatus, Parameter, Shape, Sketch, Verification
+from llm3.types import Action, ActionSchema, Defect, Entity, GoalStatus, Parameter, Shape, Sketch, Verification
 
 TAKE, PUT, RING = Yard.schemas
 
@@ -228,6 +228,48 @@ BESIDES: dict[str, Planted] = {
         "the skeleton is made of known actions",
         "the skeleton holds take(['saucer'], ...), which is no action of this world.",
         "objects cup",
+    ),
+    "pieces that are sketches": Planted(
+        a_yard(pieces=lambda self, instance: (Sketch("take", ("cup",)),)),
+        "the pieces are made of known actions",
+        "one of the pieces is Sketch(name='take', objects=('cup',)).",
+        "a piece is a tuple of llm3.types.Sketch",
+    ),
+    "unknown sketch in a piece": Planted(
+        a_yard(pieces=lambda self, instance: ((Sketch("take", ("saucer",)),),)),
+        "the pieces are made of known actions",
+        "a piece holds take(['saucer'], ...), which is no action of this world.",
+        "objects cup",
+    ),
+    "witness that is a list": Planted(
+        a_yard(witness=lambda self, setting, seed: [Action("ring")]),
+        "the witness solves the problem",
+        "witness must answer a tuple of Action or None, not [Action(name='ring', objects=(), params={})].",
+        "A tuple of one needs a comma",
+    ),
+    "witness by chance": Planted(
+        a_yard(witness=lambda self, setting, seed: (Action("ring"),) * random.randrange(1, 10**6)),
+        "the witness solves the problem",
+        "witness answers differently when it is asked again.",
+        "along with the instance",
+    ),
+    "witness out of range": Planted(
+        a_yard(witness=lambda self, setting, seed: (Action("put", ("cup",), {"x": 9.0, "y": 0.5}),)),
+        "the witness solves the problem",
+        "the witness holds put(['cup'], {'x': 9.0, 'y': 0.5}), which is no action of this world: …",
+        "within the ranges of the schema",
+    ),
+    "witness that fails": Planted(
+        a_yard(witness=lambda self, setting, seed: (Action("put", ("cup",), {"x": 1.5, "y": 0.5}),)),
+        "the witness solves the problem",
+        "the witness does not solve the problem: put(['cup'], {'x': 1.5, 'y': 0.5}): …",
+        "more room or reach than there is",
+    ),
+    "witness that stops early": Planted(
+        a_yard(witness=lambda self, setting, seed: (Action("ring"),)),
+        "the witness solves the problem",
+        "the witness does not solve the problem: at its end, …",
+        "the whole goal",
     ),
     "unknown region": Planted(
         a_yard(regions=lambda self, instance: {("put", "cup", "x"): (1.5, 2.0)}),

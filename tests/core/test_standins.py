@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from itertools import permutations
 
 import pytest
 from hypothesis import given
@@ -46,6 +47,28 @@ def test_random_fills_in_the_skeleton_within_the_ranges(seed):
     plan = drawn(seed)
     assert tuple(Sketch(action.name, action.objects) for action in plan) == SKELETON
     assert all(0 <= plan[i].params["x"] <= 10 and abs(plan[i].params["turn"]) <= 3.14159 for i in (0, 2))
+
+
+PIECES = ((Sketch("go"), Sketch("take", ("coin",))), (Sketch("go"), Sketch("go")), (Sketch("take", ("coin",)),))
+
+
+def test_random_draws_the_order_of_pieces_and_keeps_each_together():
+    settings = replace(SETTINGS, skeleton=(), pieces=PIECES)
+    orders = {tuple(Sketch(action.name, action.objects) for action in drawn(seed, settings)) for seed in range(60)}
+    assert orders == {sum(order, ()) for order in permutations(PIECES)}
+
+
+def test_random_keeps_to_the_sequence_that_the_prompt_gives():
+    settings = replace(SETTINGS, pieces=PIECES)
+    given = replace(CONTEXT, skeleton=SKELETON)
+    for seed in range(20):
+        assert tuple(Sketch(action.name, action.objects) for action in drawn(seed, settings, given)) == SKELETON
+
+
+def test_pieces_are_enough_for_random_and_for_offline():
+    settings = BackendSettings(domain="line", pieces=PIECES)
+    for name in ("random", "offline"):
+        assert "Full Plan" in backend(name, settings).complete(request()).text
 
 
 @given(st.integers(0, 2**64 - 1), st.tuples(st.floats(0, 10), st.floats(0, 10)).map(sorted))

@@ -22,7 +22,7 @@ def test_an_outline_has_three_corners_that_are_points():
 @pytest.mark.pybullet
 def test_box_packing_shows_the_basket_and_the_boxes_where_they_start():
     from llm3_boxpack.domain import BoxPack
-    from llm3_boxpack.settings import SETTINGS
+    from llm3_boxpack.paper_settings import SETTINGS
 
     domain = BoxPack()
     for setting in SETTINGS:

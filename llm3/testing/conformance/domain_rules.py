@@ -14,6 +14,7 @@ from llm3.testing.conformance import (
     schema_rules,
     series_rules,
     sight_rules,
+    solution_rules,
     state_rules,
     text_rules,
     twin_rules,
@@ -34,9 +35,14 @@ WORLD_RULES = (
     *outcome_rules.LAST_RULES,
     *text_rules.RULES,
     *description_rules.RULES,
+    *solution_rules.RULES,
     *capability_rules.RULES,
 )
-DEAR_RULES = (capability_rules.the_verifier_tells_good_plans_from_bad, *sight_rules.RULES)
+DEAR_RULES = (
+    capability_rules.the_verifier_tells_good_plans_from_bad,
+    *solution_rules.DEAR_RULES,
+    *sight_rules.RULES,
+)
 """Looked at in the first problem of each setting only."""
 PURITY_RULES = purity_rules.RULES
 TWIN_RULES = (*twin_rules.RULES, capability_rules.a_remade_world_is_like_a_new_one)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from llm3.types import Action, ActionSchema, Entity, Failure, GoalStatus, MotionProblem, State
+from llm3.types import Action, ActionSchema, Camera, Entity, Failure, GoalStatus, MotionProblem, State
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.goal import goal_status
 from llm3_boxpack.instance import BoxpackInstance
@@ -14,6 +14,11 @@ from llm3_bullet.tabletop.env import TabletopEnv
 from llm3_bullet.tabletop.table import support_height
 from llm3_bullet.tabletop.tabletop import Tabletop
 from llm3_bullet.workcell import Workcell
+
+OVERVIEW = Camera(target=(0.40, 0.0, 0.03), distance=1.65, yaw=72.0, pitch=-52.0)
+"""Where all of the table that the arm reaches can be seen."""
+ROW = 0.3, 0.5
+"""Between these x, in metres, the boxes of the paper's settings start, which are seen well from nearer by."""
 
 
 class BoxpackEnv(TabletopEnv):
@@ -31,6 +36,8 @@ class BoxpackEnv(TabletopEnv):
             InputError: It cannot begin, or not with this robot; see `Tabletop`.
         """
         self._instance = instance.with_walls(wall_height)
+        if not all(ROW[0] <= thing.position[0] <= ROW[1] for thing in instance.things):
+            self.camera = OVERVIEW
         basket = self._instance.basket
         floors = (basket.floor,)
         things = (thing.standing(support_height(floors, thing.footprint)) for thing in instance.things)

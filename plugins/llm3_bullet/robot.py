@@ -44,9 +44,11 @@ class ParallelGripper:
         if not self.links:
             raise ValueError("the links of the fingers must name the hand and the fingers")
         _positive("max_opening", self.max_opening)
-        for name in ("finger_reach", "palm_height"):
+        for name in ("finger_reach", "palm_height", "tip_depth", "finger_width"):
             if not 0 <= getattr(self, name) <= _LARGEST:
                 raise ValueError(f"{name} must be a length of 0 or more, in metres, not {getattr(self, name):g}")
+        if not all(0 <= length <= _LARGEST for length in self.palm_size):
+            raise ValueError(f"palm_size must be two lengths of 0 or more, in metres, not {list(self.palm_size)}")
         along, length = self.closing_axis[-1], math.hypot(*self.closing_axis)
         if abs(length - 1) > _PERPENDICULAR or abs(along) > _PERPENDICULAR:
             raise ValueError(

@@ -60,7 +60,13 @@ def test_the_pandas_hand_is_as_large_as_its_meshes(model):
     from_tool_to_hand = (np.linalg.inv(frames[model.link("panda_hand")]) @ frames[model.tool])[2, 3]
     palm = mesh_vertices("hand.obj")[:, 2].max()
     assert panda().gripper.palm_height == pytest.approx(from_tool_to_hand - palm, abs=1e-4)
-    assert panda().gripper.finger_reach == pytest.approx(mesh_vertices("finger.obj")[:, 1].max(), abs=1e-4)
+    finger, hand = mesh_vertices("finger.obj"), mesh_vertices("hand.obj")
+    assert panda().gripper.finger_reach == pytest.approx(finger[:, 1].max(), abs=1e-4)
+    assert panda().gripper.finger_width == pytest.approx(np.ptp(finger[:, 0]), abs=1e-4)
+    from_tool_to_finger = (np.linalg.inv(frames[model.link("panda_leftfinger")]) @ frames[model.tool])[2, 3]
+    assert panda().gripper.tip_depth == pytest.approx(finger[:, 2].max() - from_tool_to_finger, abs=5e-4)
+    along, across = 2 * np.abs(hand[:, [1, 0]]).max(axis=0)
+    assert panda().gripper.palm_size == pytest.approx((along, across), abs=1e-3)
     high = [read_urdf(PANDA).joints[number].limits[1] for number in model.finger_joints]
     assert panda().gripper.max_opening == pytest.approx(sum(high))
 

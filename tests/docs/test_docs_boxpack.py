@@ -9,9 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from llm3.jsonio import loads
 from llm3.types import Contact, Failure, FailureKind, Held, Pose, State
-from llm3_boxpack import goal, instance, layout, settings
-from llm3_boxpack.domain import MAX_WALL_HEIGHT, BoxPack
-from llm3_boxpack.instance import BasketSpec, BoxpackInstance, BoxSpec
+from llm3_boxpack import goal, instance, layout, paper_settings
+from llm3_boxpack.domain import BoxPack
+from llm3_boxpack.instance import MAX_WALL_HEIGHT, BasketSpec, BoxpackInstance, BoxSpec, ClutterSpec
 from llm3_bullet.poses import as_matrix, as_pose
 from llm3_bullet.robot import ParallelGripper
 from llm3_bullet.settle import SettlerSettings
@@ -53,24 +53,25 @@ def test_the_sizes_are_those_of_the_settings():
     boxes: dict[str, dict[str, tuple[float, ...]]] = {}
     for kind, name, size in table(PAGE, "Settings", "boxes").rows:
         boxes.setdefault(kind.strip("`"), {})[name.strip("`")] = numbers(size)
-    assert boxes == settings.BOX_SETS
+    assert boxes == paper_settings.BOX_SETS
     baskets = {
         name.strip("`"): BasketSpec(numbers(center), numbers(size))
         for name, center, size in table(PAGE, "Settings", "basket").rows
     }
-    assert baskets == settings.BASKETS
+    assert baskets == paper_settings.BASKETS
     assert f"The default is `{BoxPack.default_setting}`" in PAGE.replace("\n", " ")
 
 
 def test_where_boxes_start():
-    (low_x, high_x), (low_y, high_y) = settings.START_X, settings.START_Y
+    (low_x, high_x), (low_y, high_y) = paper_settings.START_X, paper_settings.START_Y
     assert f"x between {low_x} and {high_x} and y between {low_y} and {high_y}" in PAGE
 
 
 def test_the_options_are_those_of_the_domain():
     shown = [(name.strip("`"), default.strip("`")) for name, default, _ in table(PAGE, "Options").rows]
     assert shown == [(option.name, option.default) for option in BoxPack.options]
-    assert f"0 to {MAX_WALL_HEIGHT:g} m; they are {layout.WALL_THICKNESS * 1000:g} mm thick" in PAGE
+    assert f"0 to {MAX_WALL_HEIGHT:g} m, or `own` for those of the problem" in PAGE
+    assert f"they are {layout.WALL_THICKNESS * 1000:g} mm thick" in PAGE
 
 
 def test_the_example_of_an_instance_file_loads():
@@ -81,7 +82,7 @@ def test_the_example_of_an_instance_file_loads():
 
 @pytest.mark.parametrize(
     ("column", "structure"),
-    [("field", BoxpackInstance), ("field of the basket", BasketSpec), ("field of a box", BoxSpec)],
+    [("field", BoxpackInstance), ("field of the basket", BasketSpec), ("field of a box, or of clutter", BoxSpec), ("field of a box, or of clutter", ClutterSpec)],
 )
 def test_every_field_of_an_instance_file_is_documented(column, structure):
     shown = table(PAGE, "Instance files", column)
@@ -98,6 +99,11 @@ def test_the_limits_of_an_instance_file_are_those_of_its_sentences():
     corners = tabletop_table.TABLE_TOP.corners
     (low_x, low_y), (high_x, high_y) = corners.min(axis=0), corners.max(axis=0)
     assert f"x from {low_x} to {high_x} m and y from {low_y} to {high_y} m" in PAGE
+
+
+def test_the_harder_settings_are_those_of_the_families():
+    shown = [name.strip("` ") for row in table(PAGE, "Harder settings", "setting").rows for name in row[0].split(",")]
+    assert (*paper_settings.SETTINGS, *shown) == BoxPack.settings
 
 
 # ---- figures -----------------------------------------------------------------------------------------------------

@@ -38,8 +38,8 @@ def _heights_text(instance: BoxpackInstance, gripper: Gripper) -> str:
 
 
 def _tells_heights(instance: BoxpackInstance, gripper: Gripper) -> bool:
-    known = isinstance(gripper, ParallelGripper) and gripper.finger_width > 0 and min(gripper.palm_size) > 0
-    return known and bool(instance.basket.walls or instance.clutter)
+    known = isinstance(gripper, ParallelGripper) and gripper.finger_width and gripper.palm_size
+    return bool(known and (instance.basket.walls or instance.clutter))
 
 
 def describe(instance: BoxpackInstance, gripper: Gripper, state: State) -> tuple[Entity, ...]:
@@ -65,12 +65,12 @@ def _tray(instance: BoxpackInstance) -> Entity:
 
 
 def _hand(gripper: ParallelGripper) -> Entity:
-    along, across = gripper.palm_size
+    along, across = gripper.palm_size or (0.0, 0.0)
     return Entity(
         "hand",
         {
             "fingers reach beyond a face": round(gripper.finger_reach + OPENING_MARGIN / 2, 3),
-            "finger width": round(gripper.finger_width, 3),
+            "finger width": round(gripper.finger_width or 0.0, 3),
             "palm length": round(along, 3),
             "palm width": round(across, 3),
         },

@@ -31,12 +31,12 @@ class ParallelGripper:
     palm_height: float
     """Distance from the tool point back to the palm, in metres."""
     tip_depth: float = 0.0
-    """How far the fingers' tips are beyond the tool point, in metres. With this and what follows a model is told what
-    the hand passes over; without, it is not."""
-    finger_width: float = 0.0
-    """Of a finger across the closing direction, in metres; 0 if it is not known."""
-    palm_size: tuple[float, float] = (0.0, 0.0)
-    """Full lengths of the palm along the closing direction and across it, in metres; 0 if they are not known."""
+    """How far the fingers' tips are beyond the tool point, in metres."""
+    finger_width: float | None = None
+    """Of a finger across the closing direction, in metres; None if it is not known."""
+    palm_size: tuple[float, float] | None = None
+    """Of the palm, with the fingers under its middle, in metres: along the closing direction, and across. Like the
+    width of a finger it is only told to models; None if it is not known."""
 
     def __post_init__(self) -> None:
         if len(self.joints) != 2:
@@ -44,11 +44,13 @@ class ParallelGripper:
         if not self.links:
             raise ValueError("the links of the fingers must name the hand and the fingers")
         _positive("max_opening", self.max_opening)
-        for name in ("finger_reach", "palm_height", "tip_depth", "finger_width"):
+        for name in ("finger_reach", "palm_height", "tip_depth"):
             if not 0 <= getattr(self, name) <= _LARGEST:
                 raise ValueError(f"{name} must be a length of 0 or more, in metres, not {getattr(self, name):g}")
-        if not all(0 <= length <= _LARGEST for length in self.palm_size):
-            raise ValueError(f"palm_size must be two lengths of 0 or more, in metres, not {list(self.palm_size)}")
+        for name, lengths in (("finger_width", (self.finger_width,)), ("palm_size", self.palm_size or ())):
+            for length in lengths:
+                if length is not None:
+                    _positive(name, length)
         along, length = self.closing_axis[-1], math.hypot(*self.closing_axis)
         if abs(length - 1) > _PERPENDICULAR or abs(along) > _PERPENDICULAR:
             raise ValueError(

@@ -97,8 +97,8 @@ def test_a_value_that_makes_no_sense_is_refused(tmp_path, fields, sentence):
         ({"finger_reach": -0.01}, "finger_reach must be a length of 0 or more, in metres, not -0.01"),
         ({"palm_height": 1e9}, "palm_height must be a length of 0 or more, in metres, not 1e+09"),
         ({"tip_depth": -0.1}, "tip_depth must be a length of 0 or more, in metres, not -0.1"),
-        ({"finger_width": -1}, "finger_width must be a length of 0 or more, in metres, not -1"),
-        ({"palm_size": [0.2, -0.1]}, "palm_size must be two lengths of 0 or more, in metres, not [0.2, -0.1]"),
+        ({"finger_width": -1}, "finger_width must be more than 0 and at most 1000, not -1"),
+        ({"palm_size": [0.2, -0.1]}, "palm_size must be more than 0 and at most 1000, not -0.1"),
         *(({"closing_axis": axis}, f"{ACROSS}, not {axis}") for axis in ([0.0] * 3, [0.0, 0.0, 1.0], [0.0, 2.0, 0.0])),
     ],
 )

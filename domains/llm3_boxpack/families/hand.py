@@ -53,7 +53,13 @@ class Hand:
 
     @staticmethod
     def of(gripper: ParallelGripper) -> Hand:
-        """That of a gripper of which all sizes are known."""
+        """That of a gripper.
+
+        Raises:
+            ValueError: Not all of its sizes are known.
+        """
+        if gripper.finger_width is None or gripper.palm_size is None:
+            raise ValueError("the width of the fingers and the size of the palm must be known")
 
         def heights(height: float) -> tuple[float, float]:
             tips, palm = hand_heights(height / 1000, gripper)

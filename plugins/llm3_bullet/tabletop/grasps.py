@@ -41,6 +41,11 @@ def narrowest(gripper: Gripper) -> float:
     return 2 * gripper.cup_radius if isinstance(gripper, SuctionGripper) else 0.0
 
 
+def under_palm(height: float, gripper: ParallelGripper) -> float:
+    """How far the palm is above the upper face of a box of this height that the fingers take, in metres."""
+    return _above_center(height, gripper) + gripper.palm_height - height / 2
+
+
 def top_grasps(center: NDArray[np.float64], standing: Stance, gripper: Gripper) -> tuple[Grasp, ...]:
     """All grasps from above, the preferred first.
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from llm3.types import Entity, Pose
 from llm3_bullet.poses import as_matrix
 from llm3_bullet.robot import Gripper, ParallelGripper, SuctionGripper
 from llm3_bullet.scene import Size
-from llm3_bullet.tabletop.grasps import OPENING_MARGIN, narrowest, widest
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN, narrowest, under_palm, widest
 from llm3_bullet.tabletop.stance import stance
 
 
@@ -36,6 +38,25 @@ def _of_suction(gripper: SuctionGripper, kind: str) -> str:
         f"The gripper is a suction cup, which takes a {kind} from above by the middle of its upper face; the face must "
         f"be at least {narrowest(gripper):g} m wide. It needs no free space beside the {kind}. When it has taken a "
         f"{kind}, or let go of it, it moves straight up."
+    )
+
+
+def hand_text(gripper: Gripper, heights: Iterable[float], kind: str = "box") -> str:
+    """How much room the hand needs above the fingers, in prose; empty where its size is not known.
+
+    Args:
+        gripper: What takes the boxes.
+        heights: Of the boxes that it may have to take, in metres; at least one.
+        kind: What the domain calls them.
+    """
+    if isinstance(gripper, SuctionGripper) or gripper.palm_size is None:
+        return ""
+    along, across = gripper.palm_size
+    room = min(under_palm(height, gripper) for height in heights)
+    return (
+        f"The hand above the fingers is {along:g} m long in the direction in which they close, and {across:g} m wide. "
+        f"Its underside is {room:.3f} m or little more above the upper face of the {kind} that it takes or puts down: "
+        "what is higher must not be where the hand comes."
     )
 
 

@@ -5,16 +5,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from llm3.interfaces import Options, PlanVerifier, Regions, StandIn
-from llm3.types import Shape, Sketch, State
+from llm3.types import Action, Shape, Sketch, State
 from llm3_blocks.actions import PLACE
+from llm3_blocks.cubes import START_X, START_Y
 from llm3_blocks.instance import BlocksInstance
 from llm3_blocks.sequence import sequence
-from llm3_blocks.settings import SETTINGS, START_X, START_Y, generate
+from llm3_blocks.settings import LARGE, SETTINGS, generate
+from llm3_blocks.solution import in_step
 from llm3_bullet.tabletop.domain import TabletopDomain
 
 if TYPE_CHECKING:
     from llm3_bullet.tabletop.env import TabletopEnv
     from llm3_bullet.workcell import Workcell
+
+MANY = 6
+"""More blocks than this need more of the table than where towers start."""
+REACH_X, REACH_Y = (0.0, 0.7), (-0.7, 0.7)
+"""In metres."""
 
 
 class Blocks(TabletopDomain):
@@ -28,7 +35,11 @@ class Blocks(TabletopDomain):
 
     def instance(self, setting: str, seed: int) -> BlocksInstance:
         """Towers drawn from the seed, those at the start and those of the goal."""
-        return generate(setting, seed)
+        return generate(setting, seed).instance
+
+    def witness(self, setting: str, seed: int) -> tuple[Action, ...] | None:
+        """What the generator knows to solve it, for the settings that were made with one."""
+        return generate(setting, seed).witness if setting in LARGE else None
 
     def env(self, instance: Any, workcell: Workcell, options: Options) -> TabletopEnv:  # noqa: ARG002  # the robot's only
         """Blocks, a table and an arm."""
@@ -37,12 +48,15 @@ class Blocks(TabletopDomain):
         return BlocksEnv(instance, workcell)
 
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
-        """What is in the way to the table, and each block to where it belongs."""
+        """What is in the way to the table, and each block to where it belongs; all in step where towers are close."""
+        if instance.close:
+            return in_step(instance)
         return sequence(instance.start, {on.block: on.below for on in instance.goal})
 
     def regions(self, instance: Any) -> Regions:
-        """The part of the table where towers start, too."""
-        ranges = (("x", START_X), ("y", START_Y))
+        """The part of the table where towers start, too, or where that would not do, what the arm reaches."""
+        many = len(instance.blocks) > MANY
+        ranges = (("x", REACH_X if many else START_X), ("y", REACH_Y if many else START_Y))
         return {(PLACE.name, (block.name,), axis): range_ for block in instance.blocks for axis, range_ in ranges}
 
     def stand_in(self) -> StandIn:

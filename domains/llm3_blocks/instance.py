@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import cos, isfinite, sin
+from itertools import combinations
+from math import cos, dist, isfinite, sin
 from typing import ClassVar
 
 from llm3_bullet.scene import Box, Size
@@ -15,6 +16,9 @@ from llm3_bullet.tabletop.table import ON_TABLE, TABLE, is_on_table
 
 MOST_BLOCKS = 50
 """A plan of more than 200 actions would not be read, and a block may take four: to the table, and to its tower."""
+CLOSE = 0.11
+"""Towers of cubes whose middles are at least this far apart, in metres, leave room for fingers, and for the hand if
+they are equally high."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +107,11 @@ class BlocksInstance:
             for tower in self.towers
             for name, below in zip(tower.blocks, (TABLE, *tower.blocks), strict=False)
         }
+
+    @property
+    def close(self) -> bool:
+        """Whether towers start so close together that the order in which they are taken apart matters."""
+        return any(dist(one.position, other.position) < CLOSE for one, other in combinations(self.towers, 2))
 
     @property
     def to_move(self) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from llm3_blocks.instance import BlocksInstance
 from llm3_bullet.robot import Gripper
 from llm3_bullet.tabletop.resting import rests_on_table, support_of
 from llm3_bullet.tabletop.table import TABLE
-from llm3_bullet.tabletop.wording import box_entity, gripper_text
+from llm3_bullet.tabletop.wording import box_entity, gripper_text, hand_text
 
 
 def task_text(instance: BlocksInstance, gripper: Gripper) -> str:
@@ -21,8 +21,15 @@ def task_text(instance: BlocksInstance, gripper: Gripper) -> str:
         "A block on which another one stands cannot be picked, and nothing else can be stacked on it. A block is only "
         "placed on free space of the table. Keep the whole hand in mind: it is wider than a block, and low above the "
         "block that it holds, so a tower that is higher than this block must not be close beside it.\n"
-        f"{gripper_text(gripper, 'block')}"
+        f"{gripper_text(gripper, 'block')}{_hand(instance, gripper)}"
     )
+
+
+def _hand(instance: BlocksInstance, gripper: Gripper) -> str:
+    """Where towers are close together, what decides is how large the hand is."""
+    sizes = instance.sizes
+    text = hand_text(gripper, (sizes[on.block][2] for on in instance.goal), "block") if instance.close else ""
+    return text and f"\n{text}"
 
 
 def describe(instance: BlocksInstance, state: State) -> tuple[Entity, ...]:

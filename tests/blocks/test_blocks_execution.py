@@ -7,7 +7,7 @@ import pytest
 
 from llm3.types import Noise
 from llm3_blocks.domain import Blocks
-from llm3_blocks.settings import SETTINGS
+from llm3_blocks.settings import SMALL
 
 
 def stands(solve, **config) -> bool:
@@ -30,6 +30,6 @@ def test_a_tower_stands(solve):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("setting", SMALL)
 def test_towers_stand(solve, setting):
     assert [seed for seed in range(5) if not stands(solve, setting=setting, seed=seed)] == []

@@ -9,10 +9,12 @@ from llm3 import Registry
 from llm3.experiments import experiment_of, parse_toml
 from llm3.jsonio import loads
 from llm3.types import Failure, FailureKind, Held, Pose, State
-from llm3_blocks import settings
+from llm3_blocks import cubes, rebuild
+from llm3_blocks.colors import COLORS
 from llm3_blocks.domain import Blocks
 from llm3_blocks.goal import goal_status
-from llm3_blocks.instance import MOST_BLOCKS, BlocksInstance, BlockSpec, On, TowerSpec
+from llm3_blocks.instance import CLOSE, MOST_BLOCKS, BlocksInstance, BlockSpec, On, TowerSpec
+from llm3_blocks.settings import SMALL
 from llm3_bullet.tabletop import manipulation, resting
 
 PAGE = page("blocks")
@@ -32,19 +34,25 @@ def told() -> list[str]:
 def test_the_settings_are_those_of_the_domain():
     shown = table(PAGE, "Settings")
     assert shown.names == Blocks.settings
-    assert tuple(name for row in shown.rows for name in names(row[1])) == settings.NAMES
+    told = tuple(name for row in shown.rows for name in names(row[1]))
+    assert told == tuple(f"{color}_block" for color in COLORS)
     assert f"The default is `{Blocks.default_setting}`" in PAGE
 
 
 @pytest.mark.parametrize(
     "text",
     [
-        f"sides of {settings.SIDE:g} m",
-        f"with {settings.SCATTERED:.0%} of the seeds".replace("%", " %"),
-        f"towers of up to {settings.TALLEST} blocks",
-        "x from {} to {} and y from {} to {}".format(*settings.START_X, *settings.START_Y),
-        f"turned by up to {settings.MOST_YAW:g} rad",
-        f"the middles {settings.APART:g} m apart",
+        f"sides of {cubes.SIDE:g} m",
+        f"with {cubes.SCATTERED:.0%} of the seeds".replace("%", " %"),
+        f"towers of up to {cubes.TALLEST} blocks",
+        "x from {} to {} and y from {} to {}".format(*cubes.START_X, *cubes.START_Y),
+        f"turned by up to {cubes.MOST_YAW:g} rad",
+        f"the middles {cubes.APART:g} m apart",
+        f"{cubes.MOST_TOWERS} towers at the start at most, and always two towers in the goal, of up to {cubes.HIGHEST}",
+        f"the blocks are {rebuild.LENGTH:g} m long",
+        "{:g} to {:g} m wide".format(*rebuild.WIDTHS[::2]),
+        "{:g} to {:g} m high".format(*rebuild.HEIGHTS[::2]),
+        f"towers are less than {CLOSE:g} m apart",
         f"1 to {MOST_BLOCKS} of them",
         f"let go {manipulation.DROP * 1000:g} mm above",
         f"rests on it, within {resting.TOUCH * 1000:g} mm",
@@ -52,6 +60,17 @@ def test_the_settings_are_those_of_the_domain():
 )
 def test_the_page_has_the_figures_of_the_code(text):
     assert text in FLAT
+
+
+def test_the_towers_of_a_rebuild_are_those_of_the_code():
+    def told(counts: tuple[int, ...]) -> str:
+        return ", ".join(map(str, counts))
+
+    free = 2 * len(rebuild.CELLS)
+    assert list(table(PAGE, "Towers in step").rows) == [
+        (f"`rebuild-{n}`", told(start), told(rebuild.GOAL[n]), f"{len(start)}", f"{free - n}")
+        for n, start in rebuild.START.items()
+    ]
 
 
 @pytest.mark.pybullet
@@ -116,7 +135,7 @@ def test_the_figures_of_others_are_those_of_the_experiment():
     experiment = experiment_of(parse_toml(Registry.discover().experiment("blocks"), "blocks"), "blocks")
     (published,) = experiment.published
     row = next(row for row in table(PAGE, "What solves it").rows if row[0] == "a re-run with gpt-4o")
-    figures = [published.of("LLM3", setting) for setting in Blocks.settings]
+    figures = [published.of("LLM3", setting) for setting in SMALL]
     shown = [text for f in figures for text in (f"{f['success'] / 10:g}/10", f"{f['llm_calls']:g}")]
     assert list(row[1:]) == shown
     search = next(method for method in experiment.methods if method.name == "search")

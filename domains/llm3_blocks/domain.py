@@ -11,7 +11,7 @@ from llm3_blocks.cubes import START_X, START_Y
 from llm3_blocks.instance import BlocksInstance
 from llm3_blocks.sequence import sequence
 from llm3_blocks.settings import LARGE, SETTINGS, generate
-from llm3_blocks.solution import in_step
+from llm3_blocks.solution import steps
 from llm3_bullet.tabletop.domain import TabletopDomain
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class Blocks(TabletopDomain):
     def skeleton(self, instance: Any) -> tuple[Sketch, ...]:
         """What is in the way to the table, and each block to where it belongs; all in step where towers are close."""
         if instance.close:
-            return in_step(instance)
+            return steps(instance)
         return sequence(instance.start, {on.block: on.below for on in instance.goal})
 
     def regions(self, instance: Any) -> Regions:

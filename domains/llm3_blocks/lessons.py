@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from llm3.parsing import parse_reply
-from llm3.types import Action, Context, FailureKind, Feedback, Proposal
+from llm3.types import Action, Context, FailureKind, Feedback, Proposal, Sketch
 from llm3_blocks.actions import PICK, PLACE, STACK
 
 
@@ -37,6 +37,16 @@ class Lesson:
         if self.failed is None or self.failed.name != PLACE.name:
             return None
         return self.failed.params["x"], self.failed.params["y"]
+
+    @property
+    def crowded(self) -> bool:
+        """Whether a block could not be taken, or put on another one, for what stands around."""
+        return self.touching and self.failed is not None and self.failed.name != PLACE.name
+
+    def began_with(self, moves: Sequence[Sketch]) -> bool:
+        """Whether these were the actions that were tried."""
+        tried = (*self.worked, self.failed) if self.failed else self.worked
+        return all((a.name, a.objects) == (b.name, b.objects) for a, b in zip(tried, moves, strict=False))
 
     @property
     def is_about_motion(self) -> bool:

@@ -15,6 +15,7 @@ import numpy as np
 
 from llm3.types import Action, Context, Entity, FailureKind, Sketch
 from llm3_blocks.actions import PLACE
+from llm3_blocks.in_step import in_step
 from llm3_blocks.lessons import Lesson, crowded, lessons_of
 from llm3_blocks.places import Point, Spot, Wishes, free_place
 from llm3_blocks.sequence import sequence
@@ -25,6 +26,8 @@ REACH_STEP = 0.02
 """After a place was out of reach, the next ones are this much closer to the arm, in metres."""
 PATIENCE = 3
 """After so many failures in a row behind the same actions, all places are chosen anew."""
+STUBBORN = 2
+"""After so many collisions at towers, all are taken apart, and built, in step."""
 ELSEWHERE = "elsewhere"
 """Where a block stands that has to be moved, although it belongs on the table."""
 FACT = re.compile(r"\bon\((\w+), (\w+)\)")
@@ -38,11 +41,22 @@ def reply(context: Context, rng: np.random.Generator) -> str:
     kept, reasoning = _kept(lessons)
     lowest = {name: _spot(entity).center for name, entity in blocks.items() if _support(entity) not in blocks}
     restless = crowded(lessons, below, lowest) | (set(kept) & set(lowest))
-    moves = context.skeleton or sequence(
-        {name: ELSEWHERE if name in restless else _support(entity) for name, entity in blocks.items()}, below
-    )
+    moves = context.skeleton or _moves(blocks, below, restless, lessons)
     plan = _with_places(moves, blocks, kept, _wishes(lessons), rng)
     return json.dumps({"Reasoning": reasoning, "Full Plan": [str(action) for action in plan]})
+
+
+def _moves(
+    blocks: dict[str, Entity], below: dict[str, str], restless: set[str], lessons: Sequence[Lesson]
+) -> Sequence[Sketch]:
+    """The shortest way or, where towers are in one another's way again and again, all in step."""
+    start = {name: _support(entity) for name, entity in blocks.items()}
+    usual = sequence({name: ELSEWHERE if name in restless else support for name, support in start.items()}, below)
+    together = in_step(start, below, {name: _size(entity)[2] for name, entity in blocks.items()})
+    stuck = sum(lesson.crowded for lesson in lessons) >= STUBBORN
+    last = lessons[-1] if lessons else None
+    going = last and last.worked and last.began_with(together) and not last.began_with(usual)
+    return together if stuck or going else usual
 
 
 def _with_places(
@@ -102,10 +116,17 @@ def _support(block: Entity) -> str:
 
 
 def _spot(block: Entity) -> Spot:
-    position, size = block.properties["position"], block.properties["size"]
-    if not isinstance(position, tuple) or not isinstance(size, tuple):
+    position, size = block.properties["position"], _size(block)
+    if not isinstance(position, tuple):
         raise TypeError(f"{block.name} has no place to start from")
     return Spot((position[0], position[1]), hypot(size[0], size[1]) / 2)
+
+
+def _size(block: Entity) -> tuple[float, ...]:
+    size = block.properties["size"]
+    if not isinstance(size, tuple):
+        raise TypeError(f"{block.name} has no size")
+    return size
 
 
 def _point(action: Action) -> Point:

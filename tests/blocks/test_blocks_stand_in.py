@@ -193,6 +193,16 @@ class TestLearning:
         assert sketches(first) == ["pick a", "stack a d"]
         assert sketches(plan(after(first, 0, COLLISION, context)))[:2] == ["pick d", "place d"]
 
+    def test_where_that_happens_again_all_is_taken_apart_and_built_in_step(self):
+        first = plan(OTHER)
+        twice = tuple(feedback(number, first, 0, COLLISION) for number in (1, 2))
+        again = plan(replace(OTHER, trace=twice))
+        highest = {entity.name: entity.properties["position"][2] for entity in STATE}
+        taken = [action.objects[0] for action in again if action.name == "pick"][: len(STATE)]
+        assert taken == sorted(taken, key=lambda name: (-highest[name], name))
+        went_on = feedback(3, again, 5, COLLISION)
+        assert sketches(plan(replace(OTHER, trace=(went_on,)))) == sketches(again)
+
     def test_a_plan_that_worked_but_missed_the_goal_is_made_anew(self):
         first = plan(OTHER)
         worked = Feedback(1, tuple(Remark(str(action), "feasible") for action in first), "a is not on b")

@@ -20,7 +20,7 @@ from llm3_birrt.planner import BiRRT
 from llm3_blocks.domain import Blocks
 from llm3_blocks.env import BlocksEnv
 from llm3_blocks.settings import LARGE, SETTINGS, SMALL
-from llm3_blocks.solution import in_step
+from llm3_blocks.solution import steps
 from llm3_bullet.tabletop.table import TABLE
 from llm3_bullet.workcell import Workcell
 
@@ -95,9 +95,9 @@ def test_what_stands_above_what_is_moved_goes_to_the_table_too():
         tower("a", "b", "lid", at=(0.5, 0.0)), tower("c", at=(0.5, 0.1)), tower("d", at=(0.4, 0.3)), goal="c on b"
     )
     assert instance.close
-    moves = [f"{move.name} {' '.join(move.objects)}" for move in in_step(instance)]
+    moves = [f"{move.name} {' '.join(move.objects)}" for move in steps(instance)]
     assert moves == ["pick lid", "place lid", "pick c", "place c", "pick c", "stack c b"]
-    assert Blocks().skeleton(instance) == in_step(instance)
+    assert Blocks().skeleton(instance) == steps(instance)
 
 
 # ---- in the real world -------------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ import broken_memories
 import broken_sights
 import broken_words
 import pytest
-from depot import Depots
+from depot import Depots, a_depot
 from yard import Yards
 
 import llm3_birrt.plugin
@@ -50,6 +50,11 @@ def test_a_domain_without_a_fault_has_no_complaint():
 
 def test_a_description_without_numbers_is_no_fault(registry):
     assert check_domain(broken_depots.told_by_halves(40), seeds=(0,), registry=registry) == ()
+
+
+def test_a_stand_in_may_miss_the_goal_where_the_domain_knows_a_solution(registry):
+    domain = a_depot(goal=broken_depots.never_there, witness=lambda self, setting, seed: ())
+    assert check_domain(domain, seeds=(0,), registry=registry) == ()
 
 
 @pytest.mark.parametrize("fault", ["one verdict too few", "a verdict for each joint", "one verdict for all"])

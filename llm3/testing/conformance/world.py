@@ -132,6 +132,11 @@ class World:
         return tuple(self.domain.skeleton(self.instance) or ())
 
     @property
+    def solvable(self) -> bool:
+        """Whether the domain knows a solution; it is asked for those of its settings only."""
+        return self.setting in self.domain.settings and self.domain.witness(self.setting, self.seed) is not None
+
+    @property
     def applied(self) -> list[Trial]:
         """What could be carried out."""
         return [trial for trial in self.trials if trial.transition is not None]

@@ -14,7 +14,7 @@ from llm3_blocks.colors import COLORS
 from llm3_blocks.domain import Blocks
 from llm3_blocks.goal import goal_status
 from llm3_blocks.instance import CLOSE, MOST_BLOCKS, BlocksInstance, BlockSpec, On, TowerSpec
-from llm3_blocks.settings import SMALL
+from llm3_blocks.settings import LARGE, SMALL
 from llm3_bullet.tabletop import manipulation, resting
 
 PAGE = page("blocks")
@@ -71,6 +71,12 @@ def test_the_towers_of_a_rebuild_are_those_of_the_code():
         (f"`rebuild-{n}`", told(start), told(rebuild.GOAL[n]), f"{len(start)}", f"{free - n}")
         for n, start in rebuild.START.items()
     ]
+
+
+def test_every_large_setting_is_measured():
+    assert table(PAGE, "In the larger settings").names == LARGE
+    known = [len(Blocks().witness(setting, 0)) for setting in LARGE if setting.startswith("rebuild")]
+    assert "The motions of the known solutions are {}, {} and {}.".format(*known) in FLAT
 
 
 @pytest.mark.pybullet

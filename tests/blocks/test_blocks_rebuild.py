@@ -75,7 +75,7 @@ def test_a_tower_is_so_much_higher_than_its_neighbour_that_the_hand_has_no_room(
     assert max(abs(a - b) for a, b in pairwise(heights)) >= STEP > max(under_palm(h, HAND) for h in HEIGHTS)
     plates = [tower.position for tower in instance.towers if tower.blocks[0].endswith("plate")]
     assert all(dist(a, b) == pytest.approx(PITCH) for a, b in pairwise(plates))
-    assert HAND.hand_size[0] / 2 > PITCH - min(WIDTHS) / 2
+    assert HAND.palm_size[0] / 2 > PITCH - min(WIDTHS) / 2
 
 
 def test_fingers_have_room_between_equal_towers_but_no_block_lies_across_beside_a_higher_one():
@@ -92,7 +92,7 @@ def test_where_the_witness_puts_a_block_the_hand_has_room_whatever_else_stands_t
     posts = [tower.position for tower in instance.towers if tower.blocks[0].startswith("post")]
     towers = [tower.position for tower in instance.towers if tower.blocks[0].endswith("plate")]
     assert len(set(spots)) == len(instance.goal)
-    along, across = (side / 2 for side in HAND.hand_size)
+    along, across = (side / 2 for side in HAND.palm_size)
     for x, y in spots:
         for a, b in posts:
             half = POST[0] / 2

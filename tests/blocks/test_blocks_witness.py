@@ -161,7 +161,7 @@ def test_beside_a_higher_tower_there_is_room_for_a_cube_and_none_for_the_hand(ma
 def test_the_hand_s_size_is_told_where_it_matters(make):
     env = make(Blocks().instance("rebuild-10", 0))
     assert env.task.endswith(
-        "\nThe hand above the fingers is 0.208 m long in the direction in which they close, and 0.064 m wide. Its "
+        "\nThe hand above the fingers is 0.208 m long in the direction in which they close, and 0.063 m wide. Its "
         "underside is 0.026 m or little more above the upper face of the block that it takes or puts down: what is "
         "higher must not be where the hand comes."
     )

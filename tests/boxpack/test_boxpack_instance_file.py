@@ -65,6 +65,40 @@ WRONG = [
     ("boxes", {}, "Expected `array`, got `object` - at `$.boxes`"),
     ("basket.size", [0.22, 0.0], "the basket's sides must be 0.02 to 2 m, not [0.22, 0.0] - at `$.basket`"),
     ("basket.center", [3.0, 0.0], f"the basket's center must be {ON_TABLE}, not [3.0, 0.0] - at `$.basket`"),
+    ("basket.walls", 0.3, "the basket's walls must be 0 to 0.2 m high, not 0.3 - at `$.basket`"),
+    ("basket.walls", -0.1, "the basket's walls must be 0 to 0.2 m high, not -0.1 - at `$.basket`"),
+    (
+        "clutter",
+        [{"name": "red can", "size": [0.05, 0.05, 0.05], "position": [0.5, 0.4]}],
+        "a thing's name must be letters, digits and underscores, no digit first, not 'red can' - at `$.clutter[0]`",
+    ),
+    (
+        "clutter",
+        [{"name": "red_box", "size": [0.05, 0.05, 0.05], "position": [0.5, 0.4]}],
+        "two boxes are called red_box",
+    ),
+    (
+        "clutter",
+        [{"name": "can", "size": [0.05, 0.05, 0.05], "position": [0.39, 0.2]}],
+        "blue_box and can start in one another",
+    ),
+    (
+        "clutter",
+        [{"name": "can", "size": [0.05, 0.05, 0.05], "position": [0.54, 0.0]}],
+        "can starts on the basket's edge; it must be all inside or all outside",
+    ),
+    (
+        "clutter",
+        [
+            {
+                "name": f"can_{i}",
+                "size": [0.01, 0.01, 0.01],
+                "position": [0.2 + 0.02 * (i % 10), 0.4 + 0.02 * (i // 10)],
+            }
+            for i in range(99)
+        ],
+        "there must be at most 100 boxes and other things, not 101",
+    ),
     ("basket.depth", 0.1, "unknown field `depth`, expected center, size, walls - at `$.basket`"),
 ]
 

@@ -82,7 +82,12 @@ def test_the_example_of_an_instance_file_loads():
 
 @pytest.mark.parametrize(
     ("column", "structure"),
-    [("field", BoxpackInstance), ("field of the basket", BasketSpec), ("field of a box, or of clutter", BoxSpec), ("field of a box, or of clutter", ClutterSpec)],
+    [
+        ("field", BoxpackInstance),
+        ("field of the basket", BasketSpec),
+        ("field of a box, or of clutter", BoxSpec),
+        ("field of a box, or of clutter", ClutterSpec),
+    ],
 )
 def test_every_field_of_an_instance_file_is_documented(column, structure):
     shown = table(PAGE, "Instance files", column)

@@ -29,7 +29,7 @@ def panda() -> RobotDescription:
             palm_height=0.039,
             tip_depth=0.0072,
             finger_width=0.021,
-            palm_size=(0.208, 0.064),
+            palm_size=(0.208, 0.0632),
         ),
         joint_limits=dict(zip(_JOINTS, zip(_LOW, _HIGH, strict=True), strict=True)),
         max_acceleration=dict(zip(_JOINTS, _ACCELERATION, strict=True)),

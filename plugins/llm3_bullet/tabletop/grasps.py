@@ -43,7 +43,7 @@ def narrowest(gripper: Gripper) -> float:
 
 def under_palm(height: float, gripper: ParallelGripper) -> float:
     """How far the palm is above the upper face of a box of this height that the fingers take, in metres."""
-    return _above_center(height, gripper) + gripper.palm_height - height / 2
+    return hand_heights(height, gripper)[1] - height
 
 
 def top_grasps(center: NDArray[np.float64], standing: Stance, gripper: Gripper) -> tuple[Grasp, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from llm3.types import Entity, State
-from llm3_boxpack.instance import TRAY_THICKNESS, BoxpackInstance, BoxSpec
+from llm3_boxpack.instance import TRAY_THICKNESS, WALLS, BoxpackInstance, BoxSpec
 from llm3_bullet.robot import Gripper, ParallelGripper
 from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights
 from llm3_bullet.tabletop.wording import box_entity, gripper_text
@@ -12,7 +12,7 @@ from llm3_bullet.tabletop.wording import box_entity, gripper_text
 def task_text(instance: BoxpackInstance, gripper: Gripper) -> str:
     """The task in prose; lengths are those of the robot and the problem in use."""
     height = instance.basket.walls
-    walls = f" It has walls {height:g} m high." if height else " It has no walls."
+    walls = f" It has walls {height:g} m high: {', '.join(WALLS)}." if height else " It has no walls."
     others = " What is not to be packed may end anywhere." if instance.clutter else ""
     return (
         "A robot arm packs boxes into a basket on a table. The arm stands at (0, 0) and faces the positive x axis; "

@@ -34,6 +34,7 @@ def test_the_task(make):
     assert make(TWO).task == TASK
 
 
+WITH_WALLS = "It has walls 0.05 m high: basket_wall_front, basket_wall_back, basket_wall_right, basket_wall_left."
 HEIGHTS = """
 The hand passes over what is lower than it. Of each box is told how high the fingertips and the palm are above what \
 it stands on when the gripper takes it or lets go of it. What is higher than the fingertips must not be where a \
@@ -42,12 +43,12 @@ is above that of the box, and it is longest from finger to finger."""
 
 
 def test_the_task_with_walls_tells_of_the_height_of_the_hand(make):
-    walled = TASK.replace("It has no walls.", "It has walls 0.05 m high.")
+    walled = TASK.replace("It has no walls.", WITH_WALLS)
     assert make(TWO, 0.05).task == walled + HEIGHTS
 
 
 def test_the_task_with_walls_for_a_hand_of_unknown_size():
-    walled = TASK.replace("It has no walls.", "It has walls 0.05 m high.")
+    walled = TASK.replace("It has no walls.", WITH_WALLS)
     assert task_text(TWO.with_walls(0.05), replace(panda().fingers, finger_width=None)) == walled
 
 

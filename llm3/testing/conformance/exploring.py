@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 
 from llm3.budget import Budget
+from llm3.jsonio import dumps
 from llm3.search import search
 from llm3.seeding import generator
 from llm3.solve import solve
@@ -14,7 +15,7 @@ from llm3.testing.conformance.helpers import STRATEGY
 from llm3.testing.conformance.inspection import Inspection
 from llm3.testing.conformance.world import World, spread, tried
 from llm3.testing.scripted import ScriptedLLM, stand_in_script
-from llm3.types import Action, ActionTried, RunEvent, State
+from llm3.types import Action, ActionTried, Result, RunEvent, State
 
 LED = Budget(max_llm_calls=10, max_motion_calls=100)
 """What a domain's stand-in may spend."""
@@ -105,25 +106,21 @@ def _telling(states: list[State], start: State) -> list[State]:
 
 
 def _solved(world: World, draw: Drawing, watch: _Watch) -> None:
-    """Let the domain's stand-in solve the problem, and a search where there is none or it does not; and watch."""
+    """Let the domain's stand-in solve the problem; where it does not, its witness, or else a search; and watch."""
     helpers, stand_in = world.helpers, world.domain.stand_in()
     if helpers.planner is None:
         return
-    prompt = helpers.prompts.get(STRATEGY)
-    if stand_in is not None and helpers.feedback and prompt:
-        result = solve(
-            world.env,
-            backend=ScriptedLLM(stand_in_script(stand_in)),
-            planner=helpers.planner,
-            feedback=helpers.feedback,
-            prompt=prompt,
-            budget=HURRIED if world.slow else LED,
-            observer=watch,
-            clock=world.clock,
-        )
-        world.led, world.unmet = result.solved, result.goal.unmet
-        world.result = result if result.solved else None
-    if world.result is None and draw.moves <= MOVES:
+    if stand_in is not None:
+        result = _told(world, ScriptedLLM(stand_in_script(stand_in)), HURRIED if world.slow else LED, watch)
+        if result is not None:
+            world.led, world.unmet = result.solved, result.goal.unmet
+            world.result = result if result.solved else None
+    witness = world.witness
+    if world.result is None and witness:
+        reply = dumps({"Full Plan": [str(action) for action in witness]})
+        result = _told(world, ScriptedLLM([reply]), Budget(max_llm_calls=1), watch)
+        world.result = result if result and result.solved else None
+    elif world.result is None and draw.moves <= MOVES:
         budget = HURRIED if world.slow else SEARCHED
         found = search(
             world.env,
@@ -134,6 +131,24 @@ def _solved(world: World, draw: Drawing, watch: _Watch) -> None:
             clock=world.clock,
         )
         world.result = found if found.solved else None
+
+
+def _told(world: World, backend: ScriptedLLM, budget: Budget, watch: _Watch) -> Result | None:
+    """A run in which a backend is asked; None where what it takes cannot be had."""
+    helpers = world.helpers
+    prompt = helpers.prompts.get(STRATEGY)
+    if helpers.planner is None or helpers.feedback is None or prompt is None:
+        return None
+    return solve(
+        world.env,
+        backend=backend,
+        planner=helpers.planner,
+        feedback=helpers.feedback,
+        prompt=prompt,
+        budget=budget,
+        observer=watch,
+        clock=world.clock,
+    )
 
 
 class _Watch:

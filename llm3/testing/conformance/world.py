@@ -132,9 +132,9 @@ class World:
         return tuple(self.domain.skeleton(self.instance) or ())
 
     @property
-    def solvable(self) -> bool:
-        """Whether the domain knows a solution; it is asked for those of its settings only."""
-        return self.setting in self.domain.settings and self.domain.witness(self.setting, self.seed) is not None
+    def witness(self) -> tuple[Action, ...] | None:
+        """What the domain knows to solve it; it is asked for problems of its settings only."""
+        return self.domain.witness(self.setting, self.seed) if self.setting in self.domain.settings else None
 
     @property
     def applied(self) -> list[Trial]:

@@ -55,8 +55,8 @@ def hand_text(gripper: Gripper, heights: Iterable[float], kind: str = "box") -> 
     room = min(under_palm(height, gripper) for height in heights)
     return (
         f"The hand above the fingers is {along:.3f} m long in the direction in which they close, and {across:.3f} m "
-        f"wide. Its underside is {room:.3f} m or little more above the upper face of the {kind} that it takes or puts down: "
-        "what is higher must not be where the hand comes."
+        f"wide. Its underside is {room:.3f} m or little more above the upper face of the {kind} that it takes or puts "
+        "down: what is higher must not be where the hand comes."
     )
 
 

@@ -25,7 +25,7 @@ from llm3.registry import Registry
 from llm3.seeding import generator
 from llm3.types import Action, ActionTried, MotionProblem, RunEvent, State
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.settings import SETTINGS, generate
+from llm3_boxpack.paper_settings import SETTINGS, generate
 from llm3_bullet.robots.panda import panda
 from llm3_bullet.workcell import Workcell
 

@@ -22,7 +22,7 @@ from llm3.assembly import RunConfig, assemble
 from llm3.registry import Registry
 from llm3.types import ActionTried, ReplyRead, Result, RunEvent
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.settings import SETTINGS, generate
+from llm3_boxpack.paper_settings import SETTINGS, generate
 from llm3_bullet.robots.panda import panda
 from llm3_bullet.workcell import Workcell
 

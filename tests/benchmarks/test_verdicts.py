@@ -20,7 +20,7 @@ from published_checker import PublishedChecker, published_checker
 
 from llm3.types import Pose
 from llm3_boxpack.env import BoxpackEnv
-from llm3_boxpack.settings import generate
+from llm3_boxpack.paper_settings import generate
 from llm3_bullet.clients import connect
 from llm3_bullet.collision import CollisionChecker, SceneChecker
 from llm3_bullet.kinematics import Kinematics

@@ -23,7 +23,7 @@ from llm3.records.plan import plan_file
 from llm3.registry import Registry
 from llm3.types import Verification
 from llm3.verification import verify
-from llm3_boxpack.settings import SETTINGS
+from llm3_boxpack.paper_settings import SETTINGS
 
 HEADER = (
     "| setting | solved | sound | with times | seconds, median | seconds, max | configurations, median "

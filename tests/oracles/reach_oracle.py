@@ -22,7 +22,7 @@ import numpy as np
 from reach_solver import REACHED, Chain, best_attempts, read_chain
 
 from llm3.seeding import generator
-from llm3_boxpack.settings import BASKETS, BOX_SETS, START_X, START_Y
+from llm3_boxpack.paper_settings import BASKETS, BOX_SETS, START_X, START_Y
 
 HERE = Path(__file__).parent
 STARTS = ((16, 40, np.inf), (256, 60, np.inf), (2048, 100, 0.03))

@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from llm3.seeding import generator
-from llm3.types import Action
-from llm3_boxpack import paper_settings
-from llm3_boxpack.families.clutter import clutter
-from llm3_boxpack.families.dense import dense
-from llm3_boxpack.families.draft import Draft
-from llm3_boxpack.families.far import far
-from llm3_boxpack.families.hand import Hand
-from llm3_boxpack.families.lanes import lanes
-from llm3_boxpack.instance import BoxpackInstance
-from llm3_bullet.robots.panda import panda
+from typing import TYPE_CHECKING
 
-FAMILIES = {"dense": dense, "far": far, "clutter": clutter, "lanes": lanes}
-"""What makes the problems of a family, and proves that they can be solved, by its name."""
+from llm3_boxpack import paper_settings
+
+if TYPE_CHECKING:  # what makes the families' problems reckons with the hand, which is not cheap to import
+    from llm3.types import Action
+    from llm3_boxpack.families.draft import Draft
+    from llm3_boxpack.instance import BoxpackInstance
+
 SIZES = {"dense": (6, 8, 10, 12), "far": (4, 8), "clutter": (4, 8), "lanes": (4, 8)}
-"""How many boxes there are."""
-DRAFTS = 3000
-"""How many are drawn for a problem at most; most problems take a few."""
+"""The families, and how many boxes there are."""
 MADE = tuple(f"{family}-{count}" for family, counts in SIZES.items() for count in counts)
 SETTINGS = (*paper_settings.SETTINGS, *MADE)
 
@@ -35,13 +28,7 @@ def solution(setting: str, seed: int) -> tuple[Action, ...] | None:
 
 
 def _draft(setting: str, seed: int) -> Draft:
-    family, count = setting.split("-")
-    fingers = panda().fingers
-    if fingers is None:
-        raise TypeError("the problems are made for fingers")
-    hand, rng = Hand.of(fingers), generator("boxpack", setting, seed)
-    drafts = (FAMILIES[family](int(count), hand, rng) for _ in range(DRAFTS))
-    draft = next((draft for draft in drafts if draft and draft.is_proven(hand)), None)
-    if draft is None:
-        raise RuntimeError(f"none of {DRAFTS} drafts of {setting}, seed {seed}, is one that the hand can do")
-    return draft
+    from llm3_boxpack.families.catalogue import drafted
+
+    family, _, count = setting.partition("-")
+    return drafted(family, int(count), seed)

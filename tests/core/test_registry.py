@@ -368,7 +368,7 @@ def test_what_ships_is_found_and_whole():
         "timer": {"toppra"},
         "backend": {"offline", "random", "replay", "scripted", "http", "litellm"},
         "model source": {"http"},
-        "experiment": {"blocks", "kitchen", "smoke", "table1", "table2", "tabletop2d"},
+        "experiment": {"blocks", "frontier", "kitchen", "smoke", "table1", "table2", "tabletop2d"},
     }
     assert all(isinstance(registry.strategy(name), Strategy) for name in shipped["strategy"])
     assert isinstance(registry.backend("offline", BackendSettings(stand_in=lambda *_: "")), LLMBackend)

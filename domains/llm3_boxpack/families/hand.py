@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from llm3_boxpack.families.standing import Standing, table_of
-from llm3_bullet.robot import ParallelGripper
+from llm3_bullet.robot import Gripper, SuctionGripper
 from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights, widest
 
 GAP = 3.0
@@ -52,14 +52,14 @@ class Hand:
     """What fits between the fingers."""
 
     @staticmethod
-    def of(gripper: ParallelGripper) -> Hand:
+    def of(gripper: Gripper) -> Hand:
         """That of a gripper.
 
         Raises:
             ValueError: Not all of its sizes are known.
         """
-        if gripper.finger_width is None or gripper.palm_size is None:
-            raise ValueError("the width of the fingers and the size of the palm must be known")
+        if isinstance(gripper, SuctionGripper) or gripper.finger_width is None or gripper.palm_size is None:
+            raise ValueError("there must be fingers, and their width and the size of the palm must be known")
 
         def heights(height: float) -> tuple[float, float]:
             tips, palm = hand_heights(height / 1000, gripper)

@@ -31,6 +31,7 @@ from llm3_kitchen.goal import goal_status
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import furniture, surfaces
 from llm3_kitchen.looks import CAMERA, COLORS, marks
+from llm3_kitchen.palm import palm_text
 from llm3_kitchen.wording import describe, task_text
 
 DEEDS = {WASH.name: WASHED, HEAT.name: HEATED}
@@ -66,7 +67,8 @@ class KitchenEnv(TabletopEnv):
     @property
     def task(self) -> str:
         """The task in prose."""
-        return task_text(self.tabletop.workcell.gripper)
+        workcell = self.tabletop.workcell
+        return task_text(workcell.gripper, palm_text(workcell))
 
     @property
     def schemas(self) -> tuple[ActionSchema, ...]:

@@ -11,8 +11,13 @@ from llm3_kitchen.instance import FoodSpec, KitchenInstance, PlaceSpec
 from llm3_kitchen.whereabouts import place_of
 
 
-def task_text(gripper: Gripper) -> str:
-    """The task in prose; lengths are those of the robot in use."""
+def task_text(gripper: Gripper, palm: str = "") -> str:
+    """The task in prose; lengths are those of the robot in use.
+
+    Args:
+        gripper: What takes things.
+        palm: What else is told of it.
+    """
     return (
         "A robot arm prepares a meal in a kitchen. The arm stands at (0, 0) and faces the positive x axis; y points to "
         "its left and z points up. The table's surface is at z = 0. Lengths are in metres, angles in radians.\n"
@@ -22,8 +27,8 @@ def task_text(gripper: Gripper) -> str:
         "The goal: every food is washed and heated as far as the state asks for it, and then stands in a serving "
         "place. Food is washed in a sink and heated on a stove, and must be washed before it is heated. Clutter is "
         "only in the way: it may be moved to any place.\n"
-        f"{gripper_text(gripper, 'object')}"
-    )
+        f"{gripper_text(gripper, 'object')} {palm}"
+    ).rstrip()
 
 
 def describe(instance: KitchenInstance, state: State) -> tuple[Entity, ...]:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from llm3.interfaces import Options, PlanVerifier, Regions, StandIn
-from llm3.types import Shape, State
+from llm3.types import Action, Shape, Sketch, State
 from llm3_bullet.tabletop.domain import TabletopDomain
 from llm3_kitchen.instance import KitchenInstance
+from llm3_kitchen.pieces import pieces
 from llm3_kitchen.ranges import regions
 from llm3_kitchen.settings import SETTINGS, generate
 
@@ -27,13 +28,21 @@ class Kitchen(TabletopDomain):
 
     def instance(self, setting: str, seed: int) -> KitchenInstance:
         """What is on the menu, and what stands where, drawn from the seed."""
-        return generate(setting, seed)
+        return generate(setting, seed).instance
+
+    def witness(self, setting: str, seed: int) -> tuple[Action, ...] | None:
+        """Actions that solve it with the default robot; None for the smaller kitchens."""
+        return generate(setting, seed).witness
 
     def env(self, instance: Any, workcell: Workcell, options: Options) -> TabletopEnv:  # noqa: ARG002  # robot: done
         """Food, clutter, places and an arm."""
         from llm3_kitchen.env import KitchenEnv
 
         return KitchenEnv(instance, workcell)
+
+    def pieces(self, instance: Any) -> tuple[tuple[Sketch, ...], ...]:
+        """What is done with each food, and with each thing of the clutter."""
+        return pieces(instance)
 
     def regions(self, instance: Any) -> Regions:
         """For each thing and place the centres at which it fits."""

@@ -59,7 +59,7 @@ def _drawn(
         for _ in range(TRIES):
             food = blocked.get(name)
             spot = _beside(*spots[food], sizes[food], size, rng) if food else _any(area, size, rng)
-            covered = _footprint(spot, size)
+            covered = footprint(spot, size)
             if area.overhang(covered) == 0.0 and not any(
                 _wider(covered, FINGER_ROOM if other in alike else SNUG[0]).overlaps(rectangle)
                 for other, rectangle in standing.items()
@@ -74,23 +74,25 @@ def _drawn(
 def _any(area: Rectangle, size: Size, rng: np.random.Generator) -> Spot:
     rooms = ((side - width) / 2 for side, width in zip(area.size, size, strict=False))
     x, y = (rng.uniform(center - room, center + room) for center, room in zip(area.center, rooms, strict=True))
-    return _rounded(x, y, rng.uniform(-MOST_TURNED, MOST_TURNED))
+    return rounded(x, y, rng.uniform(-MOST_TURNED, MOST_TURNED))
 
 
 def _beside(center: Point, yaw: float, long: Size, size: Size, rng: np.random.Generator) -> Spot:
     """Close to one of the long sides of something, and turned like it."""
     across = rng.choice((-1.0, 1.0)) * (rng.uniform(*SNUG) + (long[1] + size[1]) / 2)
     along = rng.uniform(-ASIDE, ASIDE)
-    return _rounded(
+    return rounded(
         center[0] + along * cos(yaw) - across * sin(yaw), center[1] + along * sin(yaw) + across * cos(yaw), yaw
     )
 
 
-def _rounded(x: float, y: float, yaw: float) -> Spot:
+def rounded(x: float, y: float, yaw: float) -> Spot:
+    """A spot to the millimetre and the milliradian."""
     return (round(float(x), 3), round(float(y), 3)), round(float(yaw), 3)
 
 
-def _footprint(spot: Spot, size: Size) -> Rectangle:
+def footprint(spot: Spot, size: Size) -> Rectangle:
+    """What a thing of this size covers at a spot."""
     center, yaw = spot
     return Rectangle(center, (size[0], size[1]), (cos(yaw), sin(yaw)))
 

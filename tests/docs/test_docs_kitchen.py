@@ -9,7 +9,7 @@ from docs_pages import ROOT, blocks, names, page, table
 from llm3 import Registry
 from llm3.experiments import experiment_of, parse_toml
 from llm3.jsonio import loads
-from llm3_kitchen import instance, layout, lessons, settings, store, whereabouts
+from llm3_kitchen import cramped, feasts, goods, instance, layout, lessons, meals, settings, slots, store, whereabouts
 from llm3_kitchen.domain import Kitchen
 from llm3_kitchen.instance import KINDS, ClutterSpec, FoodSpec, KitchenInstance, PlaceSpec
 
@@ -27,20 +27,32 @@ def told() -> set[str]:
 
 
 def test_the_settings_are_those_of_the_domain():
-    rows = [(f"`{name}`", str(count), str(count - 1)) for name, count in settings.SETTINGS.items()]
+    problems = {name: Kitchen().instance(name, 0) for name in Kitchen.settings}
+    rows = [(f"`{name}`", str(len(one.foods)), str(len(one.clutter))) for name, one in problems.items()]
     assert [tuple(row) for row in table(PAGE, "Settings", "setting").rows] == rows
     assert f"The default is `{Kitchen.default_setting}`" in PAGE
 
 
-def test_the_sizes_are_those_of_the_settings():
-    sizes = {**settings.FOODS, **settings.CLUTTER}
+@pytest.mark.parametrize(
+    ("heading", "column", "sizes"),
+    [
+        ("Settings", "thing", {**goods.FOODS, **goods.CLUTTER}),
+        ("The larger kitchens", "more", {**goods.MORE_FOODS, **goods.MORE_CLUTTER}),
+        ("The cramped kitchens", "tall food", goods.TALL_FOODS),
+    ],
+)
+def test_the_sizes_are_those_of_the_settings(heading, column, sizes):
     rows = [(f"`{name}`", listed(size)) for name, size in sizes.items()]
-    assert [tuple(row) for row in table(PAGE, "Settings", "thing").rows] == rows
+    assert [tuple(row) for row in table(PAGE, heading, column).rows] == rows
 
 
-def test_the_places_are_those_of_the_settings():
-    rows = [(f"`{p.name}`", f"`{p.kind}`", listed(p.center), listed(p.size)) for p in settings.PLACES]
-    assert [tuple(row) for row in table(PAGE, "Settings", "place").rows] == rows
+@pytest.mark.parametrize(
+    ("heading", "column", "places"),
+    [("Settings", "place", meals.PLACES), ("The larger kitchens", "larger place", feasts.PLACES)],
+)
+def test_the_places_are_those_of_the_settings(heading, column, places):
+    rows = [(f"`{p.name}`", f"`{p.kind}`", listed(p.center), listed(p.size)) for p in places]
+    assert [tuple(row) for row in table(PAGE, heading, column).rows] == rows
 
 
 @pytest.mark.parametrize(
@@ -49,6 +61,14 @@ def test_the_places_are_those_of_the_settings():
         f"turned by up to {store.MOST_TURNED:g} rad either way",
         f"foods are {store.FINGER_ROOM * 1000:g} mm apart",
         "clutter stands {:g} to {:g} mm beside".format(*(1000 * gap for gap in store.SNUG)),
+        f"stands in {('zero', 'one', 'two', 'three', 'four')[feasts.COLUMNS]} columns",
+        "low: {} or `{}`".format(
+            ", ".join(f"`{name}`" for name in [*cramped.LOW_FOODS][:-1]), [*cramped.LOW_FOODS][-1]
+        ),
+        "The sink, {:g} by {:g} m".format(*cramped.SINK.size),
+        "the stove, {:g} by {:g} m".format(*cramped.STOVE.size),
+        f"{1000 * cramped.GAP:g} mm apart",
+        f"two rows, {slots.WORKTOP_PITCH[0]:g} m for each thing",
         f"a plate of {layout.PLATE_HEIGHT * 1000:g} mm",
         f"a rim {layout.RIM_HEIGHT * 1000:g} mm high and {instance.RIM_THICKNESS * 1000:g} mm thick",
         f"are {instance.MOST_THINGS} at most",
@@ -101,7 +121,7 @@ def test_the_figures_of_others_are_those_of_the_experiment():
     experiment = experiment_of(parse_toml(Registry.discover().experiment("kitchen"), "kitchen"), "kitchen")
     (published,) = experiment.published
     row = next(row for row in table(PAGE, "What solves it").rows if row[0] == published.label)
-    solved = [f"{published.of('LLM3', name)['success'] / 10:g}/10" for name in Kitchen.settings]
+    solved = [f"{published.of('LLM3', name)['success'] / 10:g}/10" for name in settings.MEALS]
     assert list(row[1::2]) == solved
     search = next(method for method in experiment.methods if method.name == "search")
     assert f"it was given {search.settings['max_motion_calls']} of them" in FLAT

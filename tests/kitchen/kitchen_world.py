@@ -8,7 +8,7 @@ from llm3.interfaces import Env, PlannerSettings
 from llm3.types import Action, Failure, Motion, MotionProblem, NoMotion, Path, PlannedAction, State
 from llm3_birrt.planner import BiRRT
 from llm3_kitchen.instance import ClutterSpec, FoodSpec, KitchenInstance
-from llm3_kitchen.settings import PLACES
+from llm3_kitchen.meals import PLACES
 
 CARROT = FoodSpec("carrot", (0.12, 0.03, 0.03), (0.6, -0.2), washed=True, heated=True)
 POTATO = FoodSpec("potato", (0.05, 0.05, 0.045), (0.6, 0.2), washed=True)

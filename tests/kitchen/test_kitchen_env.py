@@ -28,7 +28,7 @@ from llm3.errors import InstanceError
 from llm3.types import Action, FailureKind, Motion, NoMotion, Pose, State
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import PLATE_HEIGHT
-from llm3_kitchen.settings import PLACES
+from llm3_kitchen.meals import PLACES
 
 
 @pytest.fixture(scope="module")

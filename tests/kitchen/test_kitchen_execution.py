@@ -12,7 +12,7 @@ from llm3.types import Action, Motion, Noise, PlannedAction
 from llm3_bullet.tabletop.executor import TabletopExecutor
 from llm3_kitchen.domain import Kitchen
 from llm3_kitchen.instance import KitchenInstance
-from llm3_kitchen.settings import PLACES
+from llm3_kitchen.meals import PLACES
 
 
 def washed(env, position):

@@ -14,7 +14,7 @@ from llm3.jsonio import loads, pretty
 from llm3_kitchen.domain import Kitchen
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import furniture
-from llm3_kitchen.settings import PLACES
+from llm3_kitchen.meals import PLACES
 
 GOOD = {
     "places": [

@@ -11,8 +11,8 @@ from kitchen_world import KITCHEN
 from llm3_bullet.tabletop.rectangles import Rectangle
 from llm3_kitchen.domain import Kitchen
 from llm3_kitchen.instance import FoodSpec, KitchenInstance
+from llm3_kitchen.meals import PLACES
 from llm3_kitchen.ranges import regions
-from llm3_kitchen.settings import PLACES
 
 share = st.floats(0.0, 1.0)
 

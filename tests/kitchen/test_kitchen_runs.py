@@ -13,9 +13,11 @@ from llm3.jsonio import dumps
 from llm3.search import search
 from llm3_birrt.planner import BiRRT
 from llm3_kitchen.domain import Kitchen
+from llm3_kitchen.goods import CLUTTER, FOODS, MORE_CLUTTER, MORE_FOODS, TALL_FOODS
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.looks import COLORS
-from llm3_kitchen.settings import CLUTTER, FOODS, PLACES
+from llm3_kitchen.meals import PLACES
+from llm3_kitchen.settings import MEALS
 
 PANDA, IIWA = {"robot": "panda"}, {"robot": "iiwa"}
 
@@ -33,7 +35,7 @@ def test_the_stand_in_serves_a_meal(solve):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize("setting", Kitchen.settings)
+@pytest.mark.parametrize("setting", MEALS)
 def test_the_stand_in_serves_every_meal(solve, setting, seed):
     served(solve, setting=setting, seed=seed)
 
@@ -65,7 +67,7 @@ def test_the_same_seed_gives_the_same_plan(solve):
 
 
 def test_what_is_there_has_its_colours_in_pictures():
-    assert {*FOODS, *CLUTTER, "stove"} <= set(COLORS)
+    assert {*FOODS, *MORE_FOODS, *TALL_FOODS, *CLUTTER, *MORE_CLUTTER, "stove"} <= set(COLORS)
 
 
 def test_a_world_made_out_of_another_answers_like_a_new_one():

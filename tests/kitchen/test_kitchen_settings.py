@@ -1,4 +1,4 @@
-"""What the settings hold: how much, what is to be done with it, and that clutter is really in the way."""
+"""What the smaller kitchens hold: how much, what is to be done with it, and that clutter is really in the way."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from kitchen_world import pick
 
 from llm3.types import Failure, FailureKind
 from llm3_kitchen.domain import Kitchen
-from llm3_kitchen.settings import SETTINGS
+from llm3_kitchen.settings import MEALS, SETTINGS
 from llm3_kitchen.store import FINGER_ROOM
 
 each_setting = st.sampled_from(tuple(SETTINGS))
+each_meal = st.sampled_from(tuple(MEALS))
 seeds = st.integers(0, 10**6)
 some = settings(max_examples=8)
 
@@ -30,7 +31,7 @@ def test_the_same_seed_gives_the_same_kitchen_and_another_one_another(setting, s
 
 
 @some
-@given(each_setting, seeds)
+@given(each_meal, seeds)
 def test_there_is_as_much_food_as_the_name_says_and_one_thing_less_in_the_way(setting, seed):
     instance = Kitchen().instance(setting, seed)
     assert setting == f"kitchen-{len(instance.foods)}"
@@ -38,14 +39,14 @@ def test_there_is_as_much_food_as_the_name_says_and_one_thing_less_in_the_way(se
 
 
 @some
-@given(each_setting, seeds)
+@given(each_meal, seeds)
 def test_some_food_is_to_be_heated_some_washed_and_some_only_served(setting, seed):
     asked = {(food.washed, food.heated) for food in Kitchen().instance(setting, seed).foods}
     assert asked == {(True, True), (True, False), (False, False)}
 
 
 @some
-@given(each_setting, seeds)
+@given(each_meal, seeds)
 def test_everything_starts_in_the_store_with_room_for_a_finger_between_foods(setting, seed):
     instance = Kitchen().instance(setting, seed)
     (store,) = instance.of_kind("store")
@@ -59,7 +60,7 @@ def _with_room(food):
 
 
 @some
-@given(each_setting, seeds)
+@given(each_meal, seeds)
 def test_clutter_is_higher_than_food(setting, seed):
     """So the hand can always take what is highest, and a way to begin exists."""
     instance = Kitchen().instance(setting, seed)
@@ -67,7 +68,7 @@ def test_clutter_is_higher_than_food(setting, seed):
 
 
 @pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("setting", SETTINGS)
+@pytest.mark.parametrize("setting", MEALS)
 def test_food_is_out_of_reach_until_clutter_is_gone(make, setting, seed):
     instance = Kitchen().instance(setting, seed)
     answers = first_answers(make(instance), [food.name for food in instance.foods])

@@ -11,7 +11,7 @@ from kitchen_world import BREAD, KITCHEN, POTATO, SERVING, SINK, after, pick, pl
 from llm3.types import Action, Motion, PlannedAction, Pose
 from llm3_bullet.robots.panda import panda
 from llm3_kitchen.instance import KitchenInstance
-from llm3_kitchen.settings import PLACES
+from llm3_kitchen.meals import PLACES
 from llm3_kitchen.verification import KitchenVerifier
 
 MEAL = KitchenInstance(PLACES, (POTATO,))

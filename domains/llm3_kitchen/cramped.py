@@ -57,7 +57,7 @@ def cramped(count: int, rng: np.random.Generator) -> Known:
     )
     in_the_way = tuple(ClutterSpec(name, sizes[name], *spots[name]) for name in clutter)
     instance = KitchenInstance(tuple(places.values()), foods, in_the_way)
-    return Known(instance, tuple(_solved(instance, places, row, tall)))
+    return Known(instance, tuple(_solved(instance, places, row, low)))
 
 
 def _places(row: list[str], aside: int, sizes: Mapping[str, Size]) -> dict[str, PlaceSpec]:
@@ -93,12 +93,12 @@ def _start(
 
 
 def _solved(
-    instance: KitchenInstance, places: dict[str, PlaceSpec], row: list[str], tall: list[str]
+    instance: KitchenInstance, places: dict[str, PlaceSpec], row: list[str], low: list[str]
 ) -> Iterator[Action]:
     """All but the low food is put aside, the highest first; then the food is served, the lowest first."""
     sizes = {thing.name: thing.size for thing in instance.things}
     worktop, serving = places["worktop"], places["serving"]
-    aside = sorted((name for name in sizes if name in tall or name not in row), key=lambda name: -sizes[name][2])
+    aside = sorted((name for name in sizes if name not in low), key=lambda name: -sizes[name][2])
     for name, spot in zip(aside, slots(worktop.area, (ceil(len(aside) / 2), 2), WORKTOP_PITCH), strict=False):
         yield from moved(name, worktop.name, spot)
     left = serving.center[0] - serving.size[0] / 2

@@ -108,8 +108,19 @@ class _Work:
         if (name, deed) in self._picture.done:
             return
         if not self._picture.stands_in(name, kind):
+            if self._picture.held is None:
+                self._clear(name, kind)
             self._bring(name, kind)
         self.add(Action(deed, (name,)))
+
+    def _clear(self, name: str, kind: str) -> None:
+        """Put aside what leaves no room for something in any place of a kind."""
+        where = [where for where, place in self._picture.places.items() if place.kind == kind]
+        rng = np.random.default_rng(0)  # no spot is chosen here
+        if not any(choose_spot(self._picture, name, place, FIRST_GAP, (), rng) for place in where):
+            for other in list(self._picture.spots):
+                if other != name and self._picture.stands_in(other, kind):
+                    self._bring(other, "worktop", "store")
 
     def _bring(self, name: str, *kinds: str) -> None:
         """Move something into a place of the first of these kinds that has room for it; leave it where none has."""

@@ -106,6 +106,15 @@ def test_the_first_plan_does_all_that_is_asked_for_in_an_order_that_makes_sense(
     assert not any(action.objects[0] in CLUTTER for action in actions)
 
 
+def test_what_leaves_no_room_in_the_sink_is_put_aside_first():
+    in_sink = Entity("bottle", {"position": (0.38, 0.38, 0.08), "size": (0.16, 0.14, 0.16), "theta": 0.0})
+    state = tuple(in_sink if entity.name == "bottle" else entity for entity in STATE)
+    told = short(plan(replace(CONTEXT, state=state)))
+    first = next(index for index, action in enumerate(told) if action.endswith(" sink"))
+    assert told[first - 3 : first - 1] == ["pick bottle", "place bottle worktop"]
+    assert sum(action == "pick bottle" for action in told) == 1
+
+
 @some
 @given(seeds)
 def test_the_same_context_and_seed_give_the_same_reply(seed):

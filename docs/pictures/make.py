@@ -81,9 +81,7 @@ def beginning(config: RunConfig, size: tuple[int, int]) -> Image.Image:
     return picture
 
 
-def shots(
-    problem: Problem, start: State, moments: Iterable[Moment], size: tuple[int, int]
-) -> Iterator[Image.Image]:
+def shots(problem: Problem, start: State, moments: Iterable[Moment], size: tuple[int, int]) -> Iterator[Image.Image]:
     """Pictures of moments of a problem."""
     with closing(open_stage(problem.domain, problem.instance, problem.options, start, "a picture")) as stage:
         for moment in moments:

@@ -27,9 +27,8 @@ def task_text(instance: BlocksInstance, gripper: Gripper) -> str:
 
 def _hand(instance: BlocksInstance, gripper: Gripper) -> str:
     """Where towers are close together, what decides is how large the hand is."""
-    sizes = instance.sizes
-    text = hand_text(gripper, (sizes[on.block][2] for on in instance.goal), "block") if instance.close else ""
-    return text and f"\n{text}"
+    text = hand_text(gripper, "block") if instance.close else ""
+    return text and f" {text}"
 
 
 def describe(instance: BlocksInstance, state: State) -> tuple[Entity, ...]:

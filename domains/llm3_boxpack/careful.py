@@ -27,11 +27,6 @@ Moves = tuple[Standing, ...]
 """Where things go, one after another."""
 
 
-def is_told(context: Context) -> bool:
-    """Whether the prompt tells of the hand what is needed, and leaves the order open."""
-    return not context.skeleton and any(entity.name == "hand" for entity in context.state)
-
-
 def careful_reply(context: Context, rng: np.random.Generator) -> str:
     """A reply in the format that the prompt asks for."""
     view = view_of(context)

@@ -17,7 +17,6 @@ import numpy as np
 from llm3.parsing import parse_reply
 from llm3.types import Action, Context, Entity, FailureKind, Feedback, Proposal
 from llm3_boxpack.actions import PICK, PLACE
-from llm3_boxpack.careful import careful_reply, is_told
 from llm3_boxpack.packing import Spot, Wishes, choose_spot
 
 FIRST_GAP, GAP_STEP, LARGEST_GAP = 0.005, 0.015, 0.05
@@ -51,7 +50,9 @@ class Lesson:
 
 def reply(context: Context, rng: np.random.Generator) -> str:
     """A reply in the format that the prompt asks for."""
-    if is_told(context):
+    if not context.skeleton and any(entity.name == "hand" for entity in context.state):
+        from llm3_boxpack.careful import careful_reply  # it is not cheap to import
+
         return careful_reply(context, rng)
     lessons = [_lesson(context, feedback) for feedback in context.trace if feedback.remarks]
     boxes = {entity.name: entity for entity in context.state if _is_box(entity, context)}

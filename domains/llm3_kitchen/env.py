@@ -31,7 +31,6 @@ from llm3_kitchen.goal import goal_status
 from llm3_kitchen.instance import KitchenInstance
 from llm3_kitchen.layout import furniture, surfaces
 from llm3_kitchen.looks import CAMERA, COLORS, marks
-from llm3_kitchen.palm import palm_text
 from llm3_kitchen.wording import describe, task_text
 
 DEEDS = {WASH.name: WASHED, HEAT.name: HEATED}
@@ -67,8 +66,7 @@ class KitchenEnv(TabletopEnv):
     @property
     def task(self) -> str:
         """The task in prose."""
-        workcell = self.tabletop.workcell
-        return task_text(workcell.gripper, palm_text(workcell))
+        return task_text(self.tabletop.workcell.gripper)
 
     @property
     def schemas(self) -> tuple[ActionSchema, ...]:

@@ -5,19 +5,14 @@ from __future__ import annotations
 from llm3.types import Entity, State
 from llm3_bullet.robot import Gripper
 from llm3_bullet.tabletop.box_spec import BoxSpec
-from llm3_bullet.tabletop.wording import box_entity, gripper_text
+from llm3_bullet.tabletop.wording import box_entity, gripper_text, hand_text
 from llm3_kitchen.facts import HEATED, WASHED, is_true
 from llm3_kitchen.instance import FoodSpec, KitchenInstance, PlaceSpec
 from llm3_kitchen.whereabouts import place_of
 
 
-def task_text(gripper: Gripper, palm: str = "") -> str:
-    """The task in prose; lengths are those of the robot in use.
-
-    Args:
-        gripper: What takes things.
-        palm: What else is told of it.
-    """
+def task_text(gripper: Gripper) -> str:
+    """The task in prose; lengths are those of the robot in use."""
     return (
         "A robot arm prepares a meal in a kitchen. The arm stands at (0, 0) and faces the positive x axis; y points to "
         "its left and z points up. The table's surface is at z = 0. Lengths are in metres, angles in radians.\n"
@@ -27,7 +22,7 @@ def task_text(gripper: Gripper, palm: str = "") -> str:
         "The goal: every food is washed and heated as far as the state asks for it, and then stands in a serving "
         "place. Food is washed in a sink and heated on a stove, and must be washed before it is heated. Clutter is "
         "only in the way: it may be moved to any place.\n"
-        f"{gripper_text(gripper, 'object')} {palm}"
+        f"{gripper_text(gripper, 'object')} {hand_text(gripper, 'object')}"
     ).rstrip()
 
 

@@ -15,7 +15,7 @@ from llm3_blocks.domain import Blocks
 from llm3_blocks.instance import BlocksInstance
 from llm3_blocks.rebuild import CENTER_X, HEIGHTS, LENGTH, PITCH, PLATE, POST, STEP, WIDTHS
 from llm3_bullet.robots.panda import panda
-from llm3_bullet.tabletop.grasps import OPENING_MARGIN, under_palm, widest
+from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights, widest
 
 some = settings(max_examples=25)
 rebuilds = st.sampled_from([name for name in Blocks.settings if name.startswith("rebuild")])
@@ -72,7 +72,7 @@ def test_towers_have_the_sizes_that_are_told(setting, seed):
 def test_a_tower_is_so_much_higher_than_its_neighbour_that_the_hand_has_no_room(setting, seed):
     instance = drawn(setting, seed)
     heights = [sum(instance.sizes[name][2] for name in row) for row in rows(instance)]
-    assert max(abs(a - b) for a, b in pairwise(heights)) >= STEP > max(under_palm(h, HAND) for h in HEIGHTS)
+    assert max(abs(a - b) for a, b in pairwise(heights)) >= STEP > max(hand_heights(h, HAND)[1] - h for h in HEIGHTS)
     plates = [tower.position for tower in instance.towers if tower.blocks[0].endswith("plate")]
     assert all(dist(a, b) == pytest.approx(PITCH) for a, b in pairwise(plates))
     assert HAND.palm_size[0] / 2 > PITCH - min(WIDTHS) / 2
@@ -103,5 +103,5 @@ def test_where_the_witness_puts_a_block_the_hand_has_room_whatever_else_stands_t
         assert abs(y - b) > ROOM + max(WIDTHS) or abs(x - a) > LENGTH
     for (_, y), (_, b) in ((tower, post) for tower in towers for post in posts):
         assert abs(y - b) > along + POST[1] / 2
-    assert max(HEIGHTS) + under_palm(max(HEIGHTS), HAND) < POST[2]
+    assert hand_heights(max(HEIGHTS), HAND)[1] < POST[2]
     assert CENTER_X[0] <= towers[0][0] <= CENTER_X[1]

@@ -161,9 +161,12 @@ def test_beside_a_higher_tower_there_is_room_for_a_cube_and_none_for_the_hand(ma
 def test_the_hand_s_size_is_told_where_it_matters(make):
     env = make(Blocks().instance("rebuild-10", 0))
     assert env.task.endswith(
-        "\nThe hand above the fingers is 0.208 m long in the direction in which they close, and 0.063 m wide. Its "
-        "underside is 0.026 m or little more above the upper face of the block that it takes or puts down: what is "
-        "higher must not be where the hand comes."
+        "Then the hand moves straight up. Above the fingers is the palm. Seen from above, it reaches 0.105 m to either "
+        "side of the block's middle in the direction in which the fingers close, and 0.033 m across that. Its "
+        "underside is 0.051 m above the block's middle (for a block lower than 0.048 m, 0.039 m and a quarter of the "
+        "block's height), but at least 0.005 m above the block; the tips of the fingers are 0.048 m below that. What "
+        "is higher than the underside must not be in the way of the palm, and what is higher than the tips not in "
+        "that of the fingers."
     )
     with closing(Blocks().make(Blocks().instance("rebuild-10", 0), {"robot": "iiwa"})) as cup:
         assert cup.task.endswith("it moves straight up.")

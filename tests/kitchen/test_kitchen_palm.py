@@ -21,5 +21,5 @@ def test_a_model_is_told_how_far_the_palm_and_the_fingers_reach(make):
 def test_a_cup_has_no_palm():
     domain = Kitchen()
     env = domain.make(domain.instance("kitchen-3", 0), {"robot": "iiwa"})
-    assert env.task.endswith("When it has taken a object, or let go of it, it moves straight up.")
+    assert env.task.endswith("When it has taken an object, or let go of it, it moves straight up.")
     env.close()

@@ -41,11 +41,6 @@ def narrowest(gripper: Gripper) -> float:
     return 2 * gripper.cup_radius if isinstance(gripper, SuctionGripper) else 0.0
 
 
-def under_palm(height: float, gripper: ParallelGripper) -> float:
-    """How far the palm is above the upper face of a box of this height that the fingers take, in metres."""
-    return hand_heights(height, gripper)[1] - height
-
-
 def top_grasps(center: NDArray[np.float64], standing: Stance, gripper: Gripper) -> tuple[Grasp, ...]:
     """All grasps from above, the preferred first.
 

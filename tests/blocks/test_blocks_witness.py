@@ -120,8 +120,8 @@ def test_the_first_problem_of_each_setting_has_a_solution(workcell, setting):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("setting", LARGE)
-def test_so_have_the_next_nineteen(workcell, setting):
-    for seed in range(1, 20):
+def test_so_have_others(workcell, setting):
+    for seed in (1, 2, 1000):
         proof(workcell, setting, seed)
 
 

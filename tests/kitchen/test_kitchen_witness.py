@@ -49,7 +49,7 @@ def test_the_known_solution_solves_the_first_problem_of_each_setting(check, sett
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(1, 20))
+@pytest.mark.parametrize("seed", [1, 2, 3, 1000])
 @pytest.mark.parametrize("setting", FAMILIES)
 def test_the_known_solution_solves_every_problem(check, setting, seed):
     check(setting, seed)
@@ -60,10 +60,9 @@ def test_the_known_solution_is_a_sound_plan():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("setting", FAMILIES)
-def test_the_known_solution_of_every_setting_is_a_sound_plan(setting, seed):
-    sound(setting, seed)
+def test_the_known_solution_of_every_setting_is_a_sound_plan(setting):
+    sound(setting, 1)
 
 
 @pytest.mark.parametrize("setting", FAMILIES)

@@ -13,8 +13,13 @@ FILLING = Filling()
 
 
 def dense(count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
-    """So many boxes, each with room around it at the start; None where the table has too little room."""
-    filled = FILLING.drawn(count, hand, rng)
+    """So many boxes, each with room around it at the start; None where the draft came to nothing."""
+    return from_around(FILLING, count, hand, rng)
+
+
+def from_around(filling: Filling, count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
+    """A tray and boxes that start around it, each with room for the hand; None where the table has too little of it."""
+    filled = filling.drawn(count, hand, rng)
     if filled is None:
         return None
     tray, packing = filled

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from llm3_boxpack.families.dense import from_around
 from llm3_boxpack.families.draft import Draft
 from llm3_boxpack.families.filling import Filling
 from llm3_boxpack.families.hand import Hand
 from llm3_boxpack.families.spots import FARTHEST
-from llm3_boxpack.families.starts import spread
 from llm3_boxpack.families.tray import Tray
 
 BEYOND = 160.0
@@ -16,13 +16,8 @@ BEYOND = 160.0
 
 
 def far(count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
-    """So many boxes, each with room around it at the start; None where the table has too little room."""
-    filled = FILLING.drawn(count, hand, rng)
-    if filled is None:
-        return None
-    tray, packing = filled
-    start = spread(packing, (*tray.walls, *packing), hand, rng)
-    return Draft(tray, start, packing) if start else None
+    """So many boxes, each with room around it at the start; None where the draft came to nothing."""
+    return from_around(FILLING, count, hand, rng)
 
 
 def _far_away(depth: float, width: float) -> Tray:

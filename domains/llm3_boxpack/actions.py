@@ -20,7 +20,10 @@ def pieces(instance: BoxpackInstance) -> tuple[tuple[Sketch, ...], ...]:
 
 
 def skeleton(instance: BoxpackInstance) -> tuple[Sketch, ...] | None:
-    """Pick and place each box, in the order in which they are listed; None where things may have to be moved first."""
-    if instance.clutter:
+    """Pick and place each box, in the order in which they are listed; None where another order may be needed.
+
+    That is so between walls, where some boxes have to come before others, and where things may have to be moved first.
+    """
+    if instance.clutter or instance.basket.walls:
         return None
     return tuple(Sketch(action.name, (box.name,)) for box in instance.boxes for action in (PICK, PLACE))

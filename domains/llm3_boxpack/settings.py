@@ -8,7 +8,7 @@ from llm3_boxpack import paper_settings
 
 if TYPE_CHECKING:  # what makes the families' problems reckons with the hand, which is not cheap to import
     from llm3.types import Action
-    from llm3_boxpack.families.draft import Draft
+    from llm3_boxpack.families import Draft
     from llm3_boxpack.instance import BoxpackInstance
 
 SIZES = {"dense": (6, 8, 10, 12), "far": (4, 8), "clutter": (4, 8), "lanes": (4, 8)}
@@ -28,7 +28,7 @@ def solution(setting: str, seed: int) -> tuple[Action, ...] | None:
 
 
 def _draft(setting: str, seed: int) -> Draft:
-    from llm3_boxpack.families.catalogue import drafted
+    from llm3_boxpack.families import drafted
 
     family, _, count = setting.partition("-")
     return drafted(family, int(count), seed)

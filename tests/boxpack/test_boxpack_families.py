@@ -124,6 +124,11 @@ def test_everything_is_picked_once_and_put_down_at_once(setting, seed):
     assert sorted(piece[0].objects[0] for piece in pieces) == sorted(picked)
 
 
+@pytest.mark.parametrize("setting", MADE)
+def test_no_sequence_is_given_as_the_order_has_to_be_found(setting):
+    assert BoxPack().skeleton(BoxPack().instance(setting, 0)) is None
+
+
 def test_no_solution_is_known_of_the_papers_settings():
     assert all(BoxPack().witness(setting, 0) is None for setting in OF_THE_PAPER)
 

@@ -1,6 +1,7 @@
 """The stand-in where the prompt tells how high the hand is: geometry in place of experience.
 
-It reckons with the numbers of the prompt: what is in the way goes aside, and boxes are packed by chance, again and
+It reckons with the numbers of the prompt, and with the reach and the gaps for which the families' problems are made,
+which a prompt does not tell: what is in the way goes aside, and boxes are packed by chance, again and
 again, each where it and the hand have room. So hardly any of its actions fail; but trays as full as those of the
 families are seldom filled by chance. What finds no room is left out, and the next reply tries anew.
 """
@@ -14,7 +15,7 @@ import numpy as np
 
 from llm3.types import Action, Context
 from llm3_boxpack.actions import PICK, PLACE
-from llm3_boxpack.families.packing import packed
+from llm3_boxpack.families.insertion import packed
 from llm3_boxpack.families.shapes import from_low_to_tall
 from llm3_boxpack.families.standing import QUARTER_TURN, Standing
 from llm3_boxpack.families.starts import spread

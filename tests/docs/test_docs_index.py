@@ -41,6 +41,7 @@ def test_every_place_that_belongs_to_a_change_is_there():
     assert [row[0] for row in rows if row[0]] == [
         "a kind of failure",
         "a method of Env",
+        "a setting of a domain",
         "an option of a run",
         "an event",
         "a rule of the kit",

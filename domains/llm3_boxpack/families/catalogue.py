@@ -32,6 +32,6 @@ def drafted(family: str, count: int, seed: int) -> Draft:
     hand, rng = Hand.of(panda().gripper), generator("boxpack", f"{family}-{count}", seed)
     for _ in range(DRAFTS):
         draft = FAMILIES[family](count, hand, rng)
-        if draft and draft.is_proven(hand):
+        if draft and draft.is_proven(hand) and draft.is_a_puzzle(hand):
             return draft
-    raise RuntimeError(f"none of {DRAFTS} drafts of {family}-{count}, seed {seed}, is one that the hand can do")
+    raise RuntimeError(f"none of {DRAFTS} drafts of {family}-{count}, seed {seed}, came to a problem with a solution")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from llm3.types import Action
 from llm3_boxpack.actions import PICK, PLACE
 from llm3_boxpack.families.hand import Hand
+from llm3_boxpack.families.spots import is_within_reach
 from llm3_boxpack.families.standing import QUARTER_TURN, Standing
 from llm3_boxpack.families.tray import Tray
 from llm3_boxpack.instance import BasketSpec, BoxpackInstance, BoxSpec, ClutterSpec
@@ -22,26 +23,31 @@ class Draft:
     """What is to be packed, where it starts."""
     moves: tuple[Standing, ...]
     """Where boxes and things go, in this order."""
-    things: tuple[Standing, ...] = ()
+    clutter: tuple[Standing, ...] = ()
     """What is not to be packed, where it starts."""
 
     @property
     def start(self) -> dict[str, Standing]:
         """Where everything starts, by name."""
-        return {thing.name: thing for thing in (*self.boxes, *self.things)}
+        return {thing.name: thing for thing in (*self.boxes, *self.clutter)}
 
     def is_proven(self, hand: Hand) -> bool:
-        """Whether the hand has room for each pick and each place of the moves, and not for each in any other order."""
-        if not self.blocked_picks(hand) and not self.blocked_places(hand):
-            return False
+        """Whether the moves can be done one after another: the arm reaches each pick and place, and the hand has room.
+
+        A thing may be moved more than once.
+        """
         now = self.start
         for goal in self.moves:
             begin = now.pop(goal.name)
             others = (*self.tray.walls, *now.values())
-            if not (hand.is_free(begin, others) and hand.is_free(goal, others)):
+            if not all(is_within_reach(box) and hand.is_free(box, others) for box in (begin, goal)):
                 return False
             now[goal.name] = goal
         return True
+
+    def is_a_puzzle(self, hand: Hand) -> bool:
+        """Whether the order of actions matters: some box cannot be taken at first, or put down at last."""
+        return bool(self.blocked_picks(hand) or self.blocked_places(hand))
 
     def blocked_picks(self, hand: Hand) -> tuple[str, ...]:
         """The boxes that the hand cannot take at the start, as others are in its way."""
@@ -63,7 +69,7 @@ class Draft:
         basket = BasketSpec((_metres(x), _metres(y)), (_metres(dx), _metres(dy)), _metres(self.tray.rim))
         boxes = tuple(BoxSpec(*_spec(box)) for box in sorted(self.boxes, key=_name))
         return BoxpackInstance(
-            basket, boxes, tuple(ClutterSpec(*_spec(thing)) for thing in sorted(self.things, key=_name))
+            basket, boxes, tuple(ClutterSpec(*_spec(thing)) for thing in sorted(self.clutter, key=_name))
         )
 
     @property
@@ -72,13 +78,12 @@ class Draft:
         return tuple(self._actions())
 
     def _actions(self) -> Iterator[Action]:
-        now = self.start
+        start = self.start
         for goal in self.moves:
-            turned = goal.is_along_y != now[goal.name].is_along_y
+            turned = goal.is_along_y != start[goal.name].is_along_y
             params = {"x": _metres(goal.x), "y": _metres(goal.y), "theta": QUARTER_TURN if turned else 0.0}
             yield Action(PICK.name, (goal.name,))
             yield Action(PLACE.name, (goal.name,), params)
-            now[goal.name] = goal
 
 
 def _name(box: Standing) -> str:

@@ -8,19 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from llm3_boxpack.families.hand import Hand
-from llm3_boxpack.families.packing import Packing, grown, packed
+from llm3_boxpack.families.insertion import Packing, grown, packed
 from llm3_boxpack.families.shapes import MIXED, Heights, drawn_boxes, from_low_to_tall
 from llm3_boxpack.families.tray import Tray
 
 SQUARENESS = (0.8, 1.25)
 """The ratio of a tray's sides."""
-NEAR = 420.0
+FRONT = 420.0
 """From the arm's base to the nearer end of a tray in front of it, in millimetres."""
 
 
 def in_front(depth: float, width: float) -> Tray:
     """A tray of this size in front of the arm, all of it within reach."""
-    return Tray((NEAR, -width / 2), (NEAR + depth, width / 2))
+    return Tray((FRONT, -width / 2), (FRONT + depth, width / 2))
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ COLORS = (
     "white",
     "black",
 )
-THINGS = ("paint_can", "glue_can", "screw_tin", "tape_case", "lamp_base", "wire_spool", "wax_tin", "oil_can")
+CLUTTER = ("paint_can", "glue_can", "screw_tin", "tape_case", "lamp_base", "wire_spool", "wax_tin", "oil_can")
 Heights = tuple[tuple[float, ...], ...]
 """Kinds of heights, in millimetres, each of which some boxes have."""
 MIXED: Heights = ((26.0, 30.0), (56.0, 60.0, 64.0), (80.0, 84.0, 90.0))
@@ -40,9 +40,9 @@ def drawn_boxes(count: int, heights: Heights, rng: np.random.Generator) -> tuple
     return tuple(_shape(f"{color}_box", heights[kind], rng) for color, kind in zip(COLORS[:count], kinds, strict=True))
 
 
-def drawn_things(count: int, rng: np.random.Generator) -> tuple[Standing, ...]:
+def drawn_clutter(count: int, rng: np.random.Generator) -> tuple[Standing, ...]:
     """So many things of middle height or tall, all of them as long and as wide as small boxes."""
-    return tuple(_shape(name, MIXED[int(rng.integers(1, 3))], rng) for name in THINGS[:count])
+    return tuple(_shape(name, MIXED[int(rng.integers(1, 3))], rng) for name in CLUTTER[:count])
 
 
 def _shape(name: str, heights: tuple[float, ...], rng: np.random.Generator) -> Standing:

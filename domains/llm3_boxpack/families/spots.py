@@ -40,6 +40,11 @@ def flush(
     return centers[hand.free(box, centers, there)]
 
 
+def is_within_reach(box: Standing) -> bool:
+    """Whether the arm reaches a box for sure, however it has been taken."""
+    return NEAREST <= box.distance <= FARTHEST
+
+
 def within_reach(centers: Centers) -> Centers:
     """Those that the arm reaches for sure."""
     radius = np.hypot(centers[:, 0], centers[:, 1])

@@ -93,3 +93,26 @@ def crowded(
 def _hindrance(spot: Standing, done: Sequence[Standing], hand: Hand) -> int:
     """How many of the boxes cannot be taken because of this one."""
     return sum(bool(hand.in_the_way(other, (spot,))) for other in done)
+
+
+def beside(
+    things: Sequence[Standing],
+    boxes: Sequence[Standing],
+    there: Sequence[Standing],
+    hand: Hand,
+    rng: np.random.Generator,
+) -> tuple[Standing, ...] | None:
+    """Spots for things from which they can be taken, each so close to a box of its own that this one cannot."""
+    done: list[Standing] = []
+    for thing, index in zip(things, rng.permutation(len(boxes)).tolist(), strict=False):
+        box = boxes[index]
+        spots = [
+            way.at(x, y)
+            for way in (thing.raised(0.0), thing.raised(0.0).turned())
+            for x, y in flush(way, (box,), (-FARTHEST, -FARTHEST), (FARTHEST, FARTHEST), hand).tolist()
+        ]
+        good = [spot for spot in spots if hand.in_the_way(box, (spot,)) and hand.is_free(spot, (*there, *boxes, *done))]
+        if not good:
+            return None
+        done.append(good[int(rng.integers(len(good)))])
+    return tuple(done)

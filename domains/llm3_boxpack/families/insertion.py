@@ -1,4 +1,4 @@
-"""Packs boxes one after another, each where it and the hand have room at that moment: a packing that can be done."""
+"""Puts boxes into a tray one after another, each where it and the hand have room at that moment."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from llm3_boxpack.families.hand import Hand
-from llm3_boxpack.families.spots import FARTHEST, NEAREST, flush
+from llm3_boxpack.families.spots import flush, is_within_reach
 from llm3_boxpack.families.standing import Standing
 from llm3_boxpack.families.tray import FLOOR, Tray
 
@@ -81,7 +81,7 @@ def _larger(box: Standing, axis: int, shift: float, hand: Hand) -> Standing | No
     larger = longer if axis else wider
     short, long = sorted((larger.dx, larger.dy))
     fits = short <= hand.widest and long <= LONGEST and long - short >= GROWTH
-    return larger if fits and larger.is_along_y == box.is_along_y and NEAREST <= larger.distance <= FARTHEST else None
+    return larger if fits and larger.is_along_y == box.is_along_y and is_within_reach(larger) else None
 
 
 def _can_be_done(boxes: Packing, tray: Tray, hand: Hand) -> bool:

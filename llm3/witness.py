@@ -7,16 +7,19 @@ from time import perf_counter
 from llm3.assembly import Problem
 from llm3.errors import LLM3Error, UsageError
 from llm3.guarded import guarded
-from llm3.interfaces import MotionPlanner
+from llm3.interfaces import MotionPlanner, TrajectoryTimer
 from llm3.records import PlanFile
 from llm3.records.plan import plan_file
 from llm3.rollout import Roller
+from llm3.timing import timed
 from llm3.types import State
 from llm3.verification import verify
 from llm3.wording import failure_in_words
 
 
-def witness(problem: Problem, setting: str, seed: int, planner: MotionPlanner) -> PlanFile:
+def witness(
+    problem: Problem, setting: str, seed: int, planner: MotionPlanner, timer: TrajectoryTimer | None = None
+) -> PlanFile:
     """A sound plan for a problem that was made from a setting and a seed, where its domain knows one.
 
     Args:
@@ -24,6 +27,7 @@ def witness(problem: Problem, setting: str, seed: int, planner: MotionPlanner) -
         setting: Where it is from,
         seed: and which one of these it is.
         planner: Finds the paths.
+        timer: Puts times to the motions, if the world knows the limits of all joints.
 
     Raises:
         UsageError: The domain knows of no plan.
@@ -36,7 +40,8 @@ def witness(problem: Problem, setting: str, seed: int, planner: MotionPlanner) -
         raise UsageError(f"domain {domain.name!r} knows no solution of setting {setting!r}, seed {seed}.")
     start = guarded(problem.env.reset, (State,))
     rolled = Roller(problem.env, planner, seed, perf_counter).rollout(start, actions)
-    plan = plan_file(problem, start, rolled.plan)
+    steps = timed(rolled.plan, timer, problem.env.joints) if timer else rolled.plan
+    plan = plan_file(problem, start, steps)
     failed = next((outcome for outcome in rolled.outcomes if outcome.failure), None)
     reason = (
         f"{failed.action}: {failure_in_words(failed.failure)}" if failed and failed.failure else _fault(problem, plan)

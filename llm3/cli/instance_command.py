@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from typing import Any, TextIO
 
-from llm3.assembly import RunConfig, choose_instance, open_problem
+from llm3.assembly import RunConfig, choose_instance, choose_timer, open_problem
 from llm3.cli.output_file import check_free, write_file
 from llm3.cli.problem_arguments import add_option_arguments, add_problem_arguments, chosen_domain, chosen_options, path
 from llm3.cli.text import emit
@@ -59,6 +59,7 @@ def _witness(registry: Registry, domain: Domain, instance: Any, arguments: Names
     setting = arguments.setting or domain.default_setting
     defaults = RunConfig(domain.name)
     planner = registry.planner(defaults.planner, PlannerSettings(defaults.planner_iterations, defaults.planner_seconds))
-    with open_problem(domain, instance, chosen_options(arguments)) as problem:
-        found = witness(problem, setting, arguments.seed, planner)
+    source = f"{domain.name}/{setting}, seed {arguments.seed}"
+    with open_problem(domain, instance, chosen_options(arguments), source) as problem:
+        found = witness(problem, setting, arguments.seed, planner, choose_timer(registry, None))
     return pretty(found)

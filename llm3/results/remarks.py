@@ -28,9 +28,16 @@ def remarks(record: ExperimentRecord, cells: Sequence[Cell]) -> Iterator[str]:
                     f"{'it' if len(runs) == 1 else 'them'} in it. The first one, seed {runs[0].key.seed}: "
                     f"{one_line(runs[0].error) or 'no reason is known'}"
                 )
+    met = {cell.problem for cell in cells if cell.ended}
+    without = list(dict.fromkeys(one_line(str(cell.problem)) for cell in cells if cell.problem not in met))
+    if without and met:
+        yield f"No run on {', '.join(without)} has ended."
     for cell in cells:
-        if cell.missing:
+        if cell.missing and (cell.problem in met or not met):
             yield f"{counted(cell.missing, 'run')} of {_place(cell)} {'is' if cell.missing == 1 else 'are'} missing."
+    seeds = {run.key.seed for cell in cells for run in cell.ended}
+    if seeds and max(seeds) - min(seeds) >= len(seeds):
+        yield f"The figures are of all seeds together: {_ranges(seeds)}."
     if waiting:
         yield f"No run of {', '.join(waiting)} has ended."
     if record.strangers:
@@ -50,6 +57,13 @@ def remarks(record: ExperimentRecord, cells: Sequence[Cell]) -> Iterator[str]:
     alone = [repr(one_line(name)) for name in names if without_model(runs_of[name])]
     if alone:
         yield f"No language model answered in {', '.join(alone)}; #LM counts what stood in for one, if anything did."
+
+
+def _ranges(seeds: set[int]) -> str:
+    """Such as ``0 to 19, 1000``."""
+    starts = sorted(seed for seed in seeds if seed - 1 not in seeds)
+    ends = sorted(seed for seed in seeds if seed + 1 not in seeds)
+    return ", ".join(str(low) if low == high else f"{low} to {high}" for low, high in zip(starts, ends, strict=True))
 
 
 def remarks_between(later: ExperimentRecord, first: ExperimentRecord) -> Iterator[str]:

@@ -41,14 +41,14 @@ def looked_at(domain: Domain, setting: str, seed: int, planner: MotionPlanner, p
     began = time.perf_counter()
     instance = choose_instance(domain, setting, seed)
     seconds = time.perf_counter() - began
-    with open_problem(domain, instance, {}) as problem:
-        text = prompt.render(context_of(problem.env, problem.env.reset()))[-1].content
-        state = text[text.index("# Initial state") : text.index("# Earlier attempts")]
-        try:
-            plan, fault = witness(problem, setting, seed, planner), ""
-        except LLM3Error as error:
-            plan, fault = None, str(error)
-        return Looked(len(plan.actions) if plan else 0, fault, len(state), seconds)
+    try:
+        with open_problem(domain, instance, {}) as problem:
+            text = prompt.render(context_of(problem.env, problem.env.reset()))[-1].content
+            state = text[text.index("# Initial state") : text.index("# Earlier attempts")]
+            plan = witness(problem, setting, seed, planner)
+            return Looked(len(plan.actions), "", len(state), seconds)
+    except LLM3Error as error:
+        return Looked(0, f"{setting}, seed {seed}: {error}", 0, seconds)
 
 
 def rows(arguments: argparse.Namespace) -> Iterator[str]:

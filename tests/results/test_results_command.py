@@ -111,6 +111,22 @@ def test_measures_of_a_layout_can_be_any(command, cwd):
     assert "one       4400" in lines_of(command, folder, "--no-seconds")
 
 
+def test_problems_without_a_run_are_told_in_one_line(command, cwd):
+    made = experiment(("one", "other"), ("hard-small", "easy-small", "easy-large"), 2)
+    folder = write(cwd / "done", made, [run("one", "hard-small", seed) for seed in (0, 1)])
+    lines = lines_of(command, folder)
+    assert "No run on easy-small, easy-large has ended." in lines
+    assert not [line for line in lines if "missing" in line]
+
+
+def test_seeds_with_a_gap_between_them_are_told(command, cwd):
+    made = experiment(("one",), ("hard-small",), 10)
+    lines = lines_of(command, write(cwd / "gap", made, [run("one", "hard-small", seed) for seed in (0, 1, 2, 7, 9)]))
+    assert "The figures are of all seeds together: 0 to 2, 7, 9." in lines
+    lines = lines_of(command, write(cwd / "whole", made, [run("one", "hard-small", seed) for seed in range(5)]))
+    assert not [line for line in lines if line.startswith("The figures are of all seeds")]
+
+
 # ---- what the reader must know -------------------------------------------------------------------------------------
 
 

@@ -70,6 +70,14 @@ def test_one_line_says_what_is_wrong(run, command, line, code, sentence):
     assert (ended.code, ended.out, ended.err) == (code, "", f"llm3: error: {sentence}\n")
 
 
+def test_a_plan_without_a_record_is_no_run_and_the_line_says_what_draws_it(run, command, cwd):
+    (cwd / "alone").mkdir()
+    (cwd / "alone" / "plan.json").write_bytes((cwd / "here" / "plan.json").read_bytes())
+    ended = command("report alone/plan.json")
+    reason = "'alone' holds neither run.json nor experiment.json: it is no folder of a run or an experiment."
+    assert (ended.code, ended.err) == (3, f"llm3: error: {reason} 'llm3 render' draws a plan by itself.\n")
+
+
 def test_a_damaged_record_is_one_line_and_loses_no_earlier_report(run, command, cwd):
     command(SMALL)
     before = (cwd / "here" / "report.html").read_bytes()

@@ -14,7 +14,7 @@ from llm3.results.within import UNITS
 
 
 def budget_tables(budgets: Budgets, cells: Sequence[Cell], seconds: bool = True) -> Iterator[Table]:
-    """One table for each kind of budget, with a row for each cell and a column for each budget.
+    """One table for each kind of budget of which a method spends some, with a row a cell and a column a budget.
 
     Args:
         budgets: Those that the experiment names.
@@ -25,7 +25,9 @@ def budget_tables(budgets: Budgets, cells: Sequence[Cell], seconds: bool = True)
         f"%SR within so much, with Wilson's {100 * LEVEL:g} % intervals. A run that ended unsolved is unsolved within "
         f"every budget; {NOTHING} stands where the method spends nothing of the kind, or how much is not known."
     )
-    shown = {m: amounts for m, amounts in budgets.by_measure.items() if seconds or m not in MACHINE}
+    spent = {measure for cell in cells for measure, _ in cell.within}
+    wanted = {m: amounts for m, amounts in budgets.by_measure.items() if seconds or m not in MACHINE}
+    shown = {m: amounts for m, amounts in wanted.items() if m in spent}
     for number, (measure, amounts) in enumerate(shown.items(), 1):
         heads = ("method", "problem", "runs", *map(str, amounts))
         rows = tuple(_row(cell, measure, amounts) for cell in cells)

@@ -38,7 +38,8 @@ def _content(summary: Summary, seconds: bool) -> Iterator[Table | str]:
     cells = {(cell.method, cell.problem): cell for cell in summary.cells}
     yield from layout_tables(summary.record.experiment, cells, seconds)
     begun = {key.method for key in summary.record.runs}
-    ours = [cell for cell in summary.cells if cell.method in begun]
+    met = {cell.problem for cell in summary.cells if cell.ended}
+    ours = [cell for cell in summary.cells if cell.method in begun and cell.problem in met]
     yield detail_table(ours, seconds)
     yield from budget_tables(summary.record.experiment.budgets, ours, seconds)
     differences = [difference for difference in summary.differences if difference.method in begun]

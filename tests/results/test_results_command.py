@@ -116,6 +116,7 @@ def test_problems_without_a_run_are_told_in_one_line(command, cwd):
     folder = write(cwd / "done", made, [run("one", "hard-small", seed) for seed in (0, 1)])
     lines = lines_of(command, folder)
     assert "No run on easy-small, easy-large has ended." in lines
+    assert not [line for line in lines if line.startswith("one") and "easy-small" in line]
     assert not [line for line in lines if "missing" in line]
 
 

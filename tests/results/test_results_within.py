@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from llm3.experiments import Budgets, ExperimentRecord, read_experiment_folder
 from llm3.results import Estimate, report, share_estimate, summarize
 from llm3.results.measures import VALUES, is_attempt
+from llm3.results.table import Table
 from llm3.results.within import UNITS, curve, shares_within
 from llm3.types import FrozenDict, Stats
 
@@ -230,3 +231,16 @@ def test_a_folder_that_names_no_budgets_can_be_read(tmp_path):
     del written["experiment"]["budgets"]
     path.write_text(json.dumps(written), encoding="utf-8")
     assert read_experiment_folder(folder).experiment.budgets == Budgets()
+
+
+def test_a_budget_of_which_no_method_spends_anything_has_no_table(tmp_path):
+    """Stand-ins read and write no tokens."""
+    made = replace(experiment(("one",), ("hard-small",), 2), budgets=Budgets(llm_calls=(1, 5), tokens=(1000,)))
+    quiet = [replace(run("one", "hard-small", seed), language_model=False) for seed in (0, 1)]
+    runs = [replace(line, stats=replace(line.stats, prompt_tokens=0, completion_tokens=0)) for line in quiet]
+    record = read_experiment_folder(write(tmp_path / "done", made, runs))
+    titles = [
+        part.title for section in report(summarize([record])) for part in section.content if isinstance(part, Table)
+    ]
+    assert "Solved within a budget of model calls" in titles
+    assert "Solved within a budget of tokens" not in titles

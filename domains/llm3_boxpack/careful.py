@@ -1,23 +1,22 @@
 """The stand-in where the prompt tells how high the hand is: geometry in place of experience.
 
 It reckons with the numbers of the prompt, and with the reach and the gaps for which the families' problems are made,
-which a prompt does not tell: what is in the way goes aside, and boxes are packed by chance, again and
-again, each where it and the hand have room. So hardly any of its actions fail; but trays as full as those of the
-families are seldom filled by chance. What finds no room is left out, and the next reply tries anew.
+which a prompt does not tell: what is in the way goes aside, and boxes are packed by chance, again and again, each where
+it and the hand have room. So hardly any of its actions fail; but trays as full as those of the families are seldom
+filled by chance. What finds no room is left out, and the next reply tries anew.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from llm3.types import Action, Context
-from llm3_boxpack.actions import PICK, PLACE
+from llm3.types import Context
+from llm3_boxpack.families.draft import Draft
 from llm3_boxpack.families.insertion import packed
 from llm3_boxpack.families.shapes import from_low_to_tall
-from llm3_boxpack.families.standing import QUARTER_TURN, Standing
+from llm3_boxpack.families.standing import Standing
 from llm3_boxpack.families.starts import spread
 from llm3_boxpack.view import View, view_of
 
@@ -41,7 +40,8 @@ def careful_reply(context: Context, rng: np.random.Generator) -> str:
             break
     reasoning = "Low boxes go first, and each has room for the fingers and the palm when its turn comes."
     reasoning += f" I see no room for {missing} of the boxes yet." if missing else ""
-    return json.dumps({"Reasoning": reasoning, "Full Plan": [str(action) for action in _actions(view, best)]})
+    plan = Draft(view.tray, view.boxes, best, view.things).solution
+    return json.dumps({"Reasoning": reasoning, "Full Plan": [str(action) for action in plan]})
 
 
 def _moves(view: View, rng: np.random.Generator) -> tuple[Moves, int]:
@@ -63,12 +63,3 @@ def _is_ready(name: str, goals: dict[str, Standing], now: dict[str, Standing], v
     """Whether something can be taken and put down where it belongs, as all else stands now."""
     others = (*view.tray.walls, *(thing for other, thing in now.items() if other != name))
     return view.hand.is_free(now[name], others) and view.hand.is_free(goals[name], others)
-
-
-def _actions(view: View, moves: Sequence[Standing]) -> Iterator[Action]:
-    start = {thing.name: thing for thing in (*view.boxes, *view.things)}
-    for goal in moves:
-        turned = goal.is_along_y != start[goal.name].is_along_y
-        params = {"x": goal.x / 1000, "y": goal.y / 1000, "theta": QUARTER_TURN if turned else 0.0}
-        yield Action(PICK.name, (goal.name,))
-        yield Action(PLACE.name, (goal.name,), params)

@@ -14,6 +14,7 @@ TRAY_THICKNESS = 0.01
 """Thickness in metres of the plate that is the basket's floor."""
 WALLS = ("basket_wall_front", "basket_wall_back", "basket_wall_right", "basket_wall_left")
 MAX_WALL_HEIGHT = 0.2
+"""Of the upper edge of the basket's walls above the table, in metres."""
 TOLERANCE = 0.001
 """A footprint may reach out of the basket by this much, in metres: what a release and rounding can cost."""
 MOST_BOXES = 100
@@ -74,7 +75,7 @@ class BoxpackInstance:
     def __post_init__(self) -> None:
         if not 1 <= len(self.boxes) <= MOST_BOXES:
             raise ValueError(f"there must be 1 to {MOST_BOXES} boxes, not {len(self.boxes)}")
-        if len(self.boxes) + len(self.clutter) > MOST_BOXES:
+        if len(self.things) > MOST_BOXES:
             raise ValueError(f"there must be at most {MOST_BOXES} boxes and other things, not {len(self.things)}")
         for box in self.things:
             if self.basket.area.overlaps(box.footprint) and self.basket.area.overhang(box.footprint) > 0:

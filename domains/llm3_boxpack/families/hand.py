@@ -93,28 +93,25 @@ class Hand:
     def in_the_way(self, box: Standing, others: Iterable[Standing]) -> tuple[str, ...]:
         """What the hand would touch there; what the box itself would touch does not count."""
         rows = tuple(others)
-        blocked = np.zeros(len(rows), dtype=bool)
-        for space in self.spaces(box):
-            blocked |= _touching(space, np.array([[box.x, box.y]]), rows)[0]
-        return tuple(thing.name for thing, is_blocked in zip(rows, blocked, strict=True) if is_blocked)
+        (touched,) = _touched(self.spaces(box), np.array([[box.x, box.y]]), rows)
+        return tuple(thing.name for thing, is_touched in zip(rows, touched, strict=True) if is_touched)
 
     def free(self, box: Standing, centers: NDArray[np.float64], others: Iterable[Standing]) -> Mask:
         """At which of the centres (K, 2) there is room for the box and the hand."""
-        rows = tuple(others)
         body = Space(0.0, 0.0, box.dx + 2 * GAP, box.dy + 2 * GAP, box.bottom)
-        blocked = _touching(body, centers, rows)
-        for space in self.spaces(box):
-            blocked |= _touching(space, centers, rows)
-        return np.asarray(~blocked.any(axis=1))
+        return np.asarray(~_touched((body, *self.spaces(box)), centers, others).any(axis=1))
 
     def is_free(self, box: Standing, others: Iterable[Standing]) -> bool:
         """Whether there is room for box and hand where the box stands."""
         return bool(self.free(box, np.array([[box.x, box.y]]), others)[0])
 
 
-def _touching(space: Space, centers: NDArray[np.float64], others: tuple[Standing, ...]) -> Mask:
-    """(K, N): whether the space around each centre meets each of the others."""
-    x, y, dx, dy, _, top = table_of(others).T
-    beside_x = np.abs(centers[:, :1] + space.x - x) < (space.dx + dx) / 2
-    beside_y = np.abs(centers[:, 1:] + space.y - y) < (space.dy + dy) / 2
-    return np.asarray(beside_x & beside_y & (top > space.low))
+def _touched(spaces: Iterable[Space], centers: NDArray[np.float64], others: Iterable[Standing]) -> Mask:
+    """(K, N): whether any of the spaces around each centre meets each of the others."""
+    x, y, dx, dy, top = table_of(others).T
+    touched = np.zeros((len(centers), len(top)), dtype=bool)
+    for space in spaces:
+        beside_x = np.abs(centers[:, :1] + space.x - x) < (space.dx + dx) / 2
+        beside_y = np.abs(centers[:, 1:] + space.y - y) < (space.dy + dy) / 2
+        touched |= beside_x & beside_y & (top > space.low)
+    return touched

@@ -70,10 +70,10 @@ class Standing:
 
 
 Table = NDArray[np.float64]
-"""(N, 6): x, y, dx, dy, bottom and top of several."""
+"""(N, 5): x, y, dx, dy and top of several."""
 
 
 def table_of(things: Iterable[Standing]) -> Table:
     """Several as numbers."""
-    rows = [(t.x, t.y, t.dx, t.dy, t.bottom, t.top) for t in things]
-    return np.array(rows, dtype=float).reshape(-1, 6)
+    rows = [(t.x, t.y, t.dx, t.dy, t.top) for t in things]
+    return np.array(rows, dtype=float).reshape(-1, 5)

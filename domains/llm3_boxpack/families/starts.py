@@ -83,8 +83,9 @@ def crowded(
         if not spots:
             return None
         middle = np.mean([(d.x, d.y) for d in done], axis=0) if done else (np.array(low) + high) / 2
-        most = max(_hindrance(spot, done, hand) for spot in spots)
-        worst = [spot for spot in spots if _hindrance(spot, done, hand) == most]
+        hindrance = [_hindrance(spot, done, hand) for spot in spots]
+        most = max(hindrance)
+        worst = [spot for spot, count in zip(spots, hindrance, strict=True) if count == most]
         worst.sort(key=lambda spot: abs(spot.x - middle[0]) + abs(spot.y - middle[1]))
         done.append(worst[int(rng.integers(min(CHOICE, len(worst))))])
     return tuple(reversed(done))

@@ -5,10 +5,15 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import msgspec
 from msgspec import inspect
 
+LONGEST = 40
+"""Characters of a wrong value that a sentence quotes."""
 _BYTE = re.compile(r" \(byte (\d+)\)$")
-_ENUM = re.compile(r"^Invalid enum value .*?(?: - at `\$(?P<path>.*)`)?$", re.DOTALL)
+_PLACED = re.compile(r"(?P<fault>.*?)(?: - at `\$(?P<path>.*)`)?", re.DOTALL)
+_TYPE = re.compile(r"Expected `\w+`, got `\w+`")
+_LENGTH = re.compile(r"Expected `array` of length \d+")
 _STEP = re.compile(r"\.(?P<field>\w+)|\[(?P<index>\d+|\.\.\.)\]")
 
 
@@ -20,13 +25,34 @@ def told(sentence: str, text: str, type_: Any) -> str:
         text: The JSON.
         type_: What it should hold.
     """
-    byte, enum = _BYTE.search(sentence), _ENUM.match(sentence)
-    if byte:
+    if byte := _BYTE.search(sentence):
         return f"{sentence[: byte.start()]} ({_place(text, int(byte.group(1)))})"
-    if enum:
-        valid = ", ".join(map(repr, _valid(inspect.type_info(type_), enum["path"] or "")))
+    parts = _PLACED.fullmatch(sentence)
+    fault, path = (parts["fault"], parts["path"] or "") if parts else (sentence, "")
+    if fault.startswith("Invalid enum value"):
+        valid = ", ".join(map(repr, _valid(inspect.type_info(type_), path)))
         return f"{sentence}; valid: {valid}" if valid else sentence
+    found = _written(text, path)
+    if _TYPE.fullmatch(fault) and isinstance(found, str | int | float):
+        return f"{fault} {_short(msgspec.json.encode(found).decode())}{sentence[len(fault) :]}"
+    if _LENGTH.fullmatch(fault) and isinstance(found, list):
+        return f"{fault}, got {len(found)}{sentence[len(fault) :]}"
     return sentence
+
+
+def _written(text: str, path: str) -> Any:
+    """What stands at a place; None where the parser's path leaves it open."""
+    try:
+        value = msgspec.json.decode(text)
+        for step in _STEP.finditer(path):
+            value = value[step["field"] or int(step["index"])]
+    except (msgspec.MsgspecError, RecursionError, LookupError, TypeError, ValueError):  # further on it may be no JSON
+        return None
+    return value
+
+
+def _short(value: str) -> str:
+    return value if len(value) <= LONGEST else f"{value[:LONGEST]}…"
 
 
 def _place(text: str, byte: int) -> str:

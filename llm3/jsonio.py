@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import msgspec
 import numpy as np
 
-from llm3.errors import InputError
+from llm3.errors import InputError, LLM3Error
 from llm3.json_faults import told
 
 T = TypeVar("T")
@@ -146,10 +146,28 @@ def read_file(path: Path, type_: type[T]) -> T:
     return loads(data, type_, str(path))
 
 
-def stated_format(path: Path) -> str | None:
-    """What a JSON file says that its format is; None if it says nothing of the kind, or cannot be read."""
+def read_stated(path: Path, type_: type[T], format_: str) -> T:
+    """Read a JSON file that says of what format it is; see :func:`loads`.
+
+    Raises:
+        InputError: The file cannot be read, is of another format or of none, or does not hold such a thing.
+    """
+    try:
+        return read_file(path, type_)
+    except LLM3Error as error:
+        stated = _stated(path, format_)
+        if stated != format_:
+            found = "no format is stated" if stated is None else f"the format is {stated!r}"
+            raise InputError(f"{path}: {found}, and this version reads {format_!r}") from None
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"{path}: {error}") from error  # fields that are well formed and cannot be
+
+
+def _stated(path: Path, usual: Any) -> Any:
+    """What a JSON file says that its format is; the usual one if there is no reading it."""
     try:
         data = json.loads(path.read_bytes())
     except (OSError, ValueError, RecursionError):
-        return None
-    return str(data["format"]) if isinstance(data, dict) and "format" in data else None
+        return usual
+    return data.get("format") if isinstance(data, dict) else usual

@@ -11,7 +11,7 @@ from pathlib import Path
 from llm3.errors import InputError
 from llm3.experiments.experiment import Experiment, RunKey
 from llm3.experiments.run_line import RunLine
-from llm3.jsonio import loads, read_file
+from llm3.jsonio import loads, read_stated
 from llm3.records.json_lines import read_lines
 from llm3.types import FrozenDict
 
@@ -70,7 +70,7 @@ def read_experiment_folder(folder: Path) -> ExperimentRecord:
         raise InputError(f"{folder}: No such file or directory")
     if not path.exists():
         raise InputError(f"'{folder}' holds no {EXPERIMENT_FILE}: it is not the folder of an experiment.")
-    file = read_file(path, ExperimentFile)
+    file = read_stated(path, ExperimentFile, EXPERIMENT_FORMAT)
     ended = read_runs(folder / RUNS_FILE)
     ours = FrozenDict({key: ended[key] for key in keys_of(file.experiment) if key in ended})
     return ExperimentRecord(folder, file.experiment, file.versions, ours, file.earlier, len(ended) - len(ours))

@@ -10,7 +10,7 @@ from typing import Any
 from llm3.assembly import Problem, open_problem
 from llm3.errors import InputError
 from llm3.interfaces import Joint
-from llm3.jsonio import dumps, loads, read_file, stated_format, to_builtins
+from llm3.jsonio import dumps, loads, read_stated, to_builtins
 from llm3.registry import Registry
 from llm3.types import PlannedAction, State
 
@@ -67,13 +67,7 @@ def read_plan(path: Path) -> PlanFile:
             raise InputError(f"{path.parent} holds neither plan.json nor run.json: it is no folder of a run.")
         if not path.exists():
             raise InputError(f"{path.parent} holds no plan.json: the run was not solved, or has not ended.")
-    try:
-        return read_file(path, PlanFile)
-    except InputError:
-        stated = stated_format(path)
-        if stated not in (None, PLAN_FORMAT):
-            raise InputError(f"{path}: the format is {stated!r}, and this version reads {PLAN_FORMAT!r}") from None
-        raise
+    return read_stated(path, PlanFile, PLAN_FORMAT)
 
 
 def open_plan(registry: Registry, plan: PlanFile) -> Problem:

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from llm3.assembly import Run, RunConfig
-from llm3.errors import InputError, LLM3Error
-from llm3.jsonio import read_file, stated_format, to_builtins
+from llm3.errors import InputError
+from llm3.jsonio import read_stated, to_builtins
 from llm3.types import FrozenDict, Stats
 
 RUN_FORMAT = "llm3-run/1"
@@ -83,15 +83,7 @@ def read_run(folder: Path) -> RunFile:
         raise InputError(f"{folder}: No such file or directory")
     if not path.exists():
         raise InputError(f"'{folder}' holds no run.json: it is not the folder of a run.")
-    try:
-        return read_file(path, RunFile)
-    except LLM3Error as error:
-        stated = stated_format(path)
-        if stated not in (None, RUN_FORMAT):
-            raise InputError(f"{path}: the format is {stated!r}, and this version reads {RUN_FORMAT!r}") from None
-        if isinstance(error, InputError):
-            raise
-        raise InputError(f"{path}: {error}") from error  # a configuration that cannot be
+    return read_stated(path, RunFile, RUN_FORMAT)
 
 
 def versions() -> Mapping[str, str]:

@@ -25,7 +25,7 @@ GOOD = {
 ON_TABLE = "such that all of it is on the table, x -0.5 to 1.5 m and y -1.5 to 1.5 m"
 KNOWN = "there are red_block, blue_block, tan_block"
 WRONG = [
-    ("blocks.0.name", 7, "Expected `str`, got `int` - at `$.blocks[0].name`"),
+    ("blocks.0.name", 7, "Expected `str`, got `int` 7 - at `$.blocks[0].name`"),
     (
         "blocks.0.name",
         "red block",
@@ -48,7 +48,7 @@ WRONG = [
     ("towers.0.blocks.1", "puce_block", f"a tower holds 'puce_block', and there is no such block; {KNOWN}"),
     ("towers.1.blocks.0", "red_block", "red_block stands in two places"),
     ("towers.0.blocks", ["red_block"], "blue_block stands in no tower; a block by itself is a tower, too"),
-    ("towers.0.position", [0.45], "Expected `array` of length 2 - at `$.towers[0].position`"),
+    ("towers.0.position", [0.45], "Expected `array` of length 2, got 1 - at `$.towers[0].position`"),
     (
         "towers.1.position",
         [1.49, 0.0],

@@ -21,7 +21,7 @@ GOOD = {
 ON_TABLE = "such that all of it is on the table, x -0.5 to 1.5 m and y -1.5 to 1.5 m"
 TAKEN = "table, basket, basket_wall_front, basket_wall_back, basket_wall_right, basket_wall_left, itself"
 WRONG = [
-    ("boxes.0.name", 7, "Expected `str`, got `int` - at `$.boxes[0].name`"),
+    ("boxes.0.name", 7, "Expected `str`, got `int` 7 - at `$.boxes[0].name`"),
     (
         "boxes.0.name",
         "red box",
@@ -32,9 +32,9 @@ WRONG = [
         "basket",
         f"a box cannot be called 'basket'; these names are taken: {TAKEN} - at `$.boxes[0]`",
     ),
-    ("boxes.0.size", [0.07, 0.07], "Expected `array` of length 3 - at `$.boxes[0].size`"),
-    ("boxes.0.size.1", "wide", "Expected `float`, got `str` - at `$.boxes[0].size[1]`"),
-    ("boxes.0.size.1", True, "Expected `float`, got `bool` - at `$.boxes[0].size[1]`"),
+    ("boxes.0.size", [0.07, 0.07], "Expected `array` of length 3, got 2 - at `$.boxes[0].size`"),
+    ("boxes.0.size.1", "wide", 'Expected `float`, got `str` "wide" - at `$.boxes[0].size[1]`'),
+    ("boxes.0.size.1", True, "Expected `float`, got `bool` true - at `$.boxes[0].size[1]`"),
     (
         "boxes.0.size.1",
         0.0,
@@ -46,7 +46,7 @@ WRONG = [
         "the sides of blue_box must be 0.005 to 0.5 m, not [0.035, 0.035, 7.0] - at `$.boxes[1]`",
     ),
     ("boxes.0.position", [1.49, 0.0], f"the position of red_box must be {ON_TABLE}, not [1.49, 0.0] - at `$.boxes[0]`"),
-    ("boxes.0.position", [0.4], "Expected `array` of length 2 - at `$.boxes[0].position`"),
+    ("boxes.0.position", [0.4], "Expected `array` of length 2, got 1 - at `$.boxes[0].position`"),
     ("boxes.0.yaw", None, "Expected `float`, got `null` - at `$.boxes[0].yaw`"),
     ("boxes.0.colour", "red", "unknown field `colour`, expected name, size, position, yaw - at `$.boxes[0]`"),
     ("boxes.1.name", "red_box", "two boxes are called red_box"),

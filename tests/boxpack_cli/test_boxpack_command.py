@@ -34,5 +34,5 @@ def test_a_wrong_instance_names_the_field(tmp_path):
     problem["boxes"][1]["size"] = "big"
     (tmp_path / "problem.json").write_text(json.dumps(problem), encoding="utf-8")
     ended = run(llm3("--domain boxpack --instance problem.json"), tmp_path, environment())
-    sentence = "problem.json: Expected `array`, got `str` - at `$.boxes[1].size`"
+    sentence = 'problem.json: Expected `array`, got `str` "big" - at `$.boxes[1].size`'
     assert (ended.code, ended.out, ended.err) == (3, "", f"llm3: error: {sentence}\n")

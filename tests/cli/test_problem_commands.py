@@ -7,7 +7,7 @@ import json
 import pytest
 
 BAD_FILES = {
-    "wrong type": ('{"gap": "wide"}', "Expected `float`, got `str` - at `$.gap`"),
+    "wrong type": ('{"gap": "wide"}', 'Expected `float`, got `str` "wide" - at `$.gap`'),
     "missing field": ("{}", "Object missing required field `gap`"),
     "unknown field": ('{"gap": 0.5, "gaps": 2}', "unknown field `gaps`, expected gap - at `$`"),
     "no object": ("[]", "Expected `object`, got `array`"),

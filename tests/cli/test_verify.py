@@ -204,6 +204,15 @@ def test_a_run_is_no_plan(watched):
     )
 
 
+def test_a_problem_is_no_plan(watched, cwd):
+    assert watched("instance --domain watched --out problem.json").code == 0
+    ended = watched("verify problem.json")
+    assert (ended.code, ended.err) == (
+        3,
+        "llm3: error: problem.json: no format is stated, and this version reads 'llm3-plan/1'\n",
+    )
+
+
 def test_times_for_some_segments_only_are_a_defect(watched, cwd):
     def half_timed(plan):
         (segment,) = plan["actions"][0]["motion"]["segments"]

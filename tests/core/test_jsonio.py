@@ -137,12 +137,12 @@ WRONG = {
         '{"height": 1, "boxes": [{"name": "a"}]}',
         "table.json: Object missing required field `size` - at `$.boxes[0]`",
     ),
-    "wrong type": ('{"height": "high"}', "table.json: Expected `float`, got `str` - at `$.height`"),
-    "bool for a number": ('{"height": true}', "table.json: Expected `float`, got `bool` - at `$.height`"),
+    "wrong type": ('{"height": "high"}', 'table.json: Expected `float`, got `str` "high" - at `$.height`'),
+    "bool for a number": ('{"height": true}', "table.json: Expected `float`, got `bool` true - at `$.height`"),
     "null for a number": ('{"height": null}', "table.json: Expected `float`, got `null` - at `$.height`"),
     "wrong type inside": (
         '{"height": 1, "boxes": [{"name": "a", "size": [1, "b"]}]}',
-        "table.json: Expected `float`, got `str` - at `$.boxes[0].size[1]`",
+        'table.json: Expected `float`, got `str` "b" - at `$.boxes[0].size[1]`',
     ),
     "unknown field": (
         '{"height": 1, "heigth": 2}',
@@ -199,6 +199,24 @@ def test_a_value_that_is_none_of_the_valid_ones_is_named():
     assert complaint('"blue"', Colour) == "table.json: Invalid enum value 'blue'; valid: 'red'"
 
 
+UNFIT = {
+    "cut off after it": ('{"height": "high", ', "Expected `float`, got `str` - at `$.height`"),
+    "where no path leads": ('{"by_corner": {"left": 1}}', "Expected `object`, got `int` - at `$.by_corner[...]`"),
+    "long": (f'{{"height": "{"a" * 99}"}}', f'Expected `float`, got `str` "{"a" * 39}… - at `$.height`'),
+    "of several lines": (r'{"height": "a\nb"}', r'Expected `float`, got `str` "a\nb" - at `$.height`'),
+    "a list": ('{"height": [1]}', "Expected `float`, got `array` - at `$.height`"),
+}
+
+
+@pytest.mark.parametrize(("text", "sentence"), UNFIT.values(), ids=UNFIT)
+def test_a_value_of_another_type_is_quoted_if_it_is_known_and_short(text, sentence):
+    assert complaint(text) == f"table.json: {sentence}"
+
+
+def test_of_a_list_of_another_length_the_length_is_told():
+    assert complaint('{"pair": [1]}', Painted) == "table.json: Expected `array` of length 2, got 1 - at `$.pair`"
+
+
 @given(st.text(st.characters(categories=None)) | st.binary())
 def test_no_text_raises_anything_else(text):
     try:
@@ -224,7 +242,7 @@ def test_a_file_is_named_in_every_complaint(tmp_path):
     path.write_text('{"height": "high"}', encoding="utf-8")
     with pytest.raises(InputError) as wrong:
         read_file(path, Table)
-    assert str(wrong.value) == f"{path}: Expected `float`, got `str` - at `$.height`"
+    assert str(wrong.value) == f'{path}: Expected `float`, got `str` "high" - at `$.height`'
     with pytest.raises(InputError) as absent:
         read_file(tmp_path / "absent.json", Table)
     assert str(absent.value) == f"{tmp_path / 'absent.json'}: No such file or directory"

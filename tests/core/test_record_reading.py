@@ -145,7 +145,7 @@ def test_what_was_asked_and_what_came_of_it_reads_back(tmp_path):
             "Invalid enum value 'happy' - at "
             "`$.status`; valid: 'error', 'interrupted', 'not solved', 'running', 'solved'",
         ),
-        ({"seconds": "one"}, "Expected `float`, got `str` - at `$.seconds`"),
+        ({"seconds": "one"}, 'Expected `float`, got `str` "one" - at `$.seconds`'),
         ({"config": {"domain": "line", "temperature": -1}}, "the temperature must be 0 or more, not -1."),
     ],
 )
@@ -194,7 +194,7 @@ def replaced(number, old, new):
         (replaced(5, '"repairs"', '"mends"'),
          "line 5, proposal: Object missing required field `repairs`"),
         (replaced(5, '{"name":"go","objects":[],"params":{"x":5.0}}', "7"),
-         "line 5, action: Expected `object`, got `int`"),
+         "line 5, action: Expected `object`, got `int` 7"),
         (replaced(6, '"index":0', '"index":1'), "line 6: the index of the action is 0, not 1"),
         (replaced(6, '"failure"', '"fail"'), "line 6: Object missing required field `failure` - at `$.outcome`"),
         (replaced(7, ":", ";"), "line 7: JSON is malformed: expected ':' (column 9)"),

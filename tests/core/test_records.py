@@ -289,6 +289,7 @@ def test_a_plan_can_be_carried_out_again_from_the_file_alone(tmp_path):
     ("change", "wrong"),
     [
         ({"format": "llm3-plan/9"}, "the format is 'llm3-plan/9', and this version reads 'llm3-plan/1'"),
+        ({"format": None}, "no format is stated, and this version reads 'llm3-plan/1'"),
         ({"joints": None}, "Expected `array`, got `null` - at `$.joints`"),
         (
             {"backend": "http"},

@@ -190,7 +190,7 @@ def test_scripted_needs_a_file():
     ("text", "wrong"),
     [
         ('{"replies": []}', "Expected `array`, got `object`"),
-        ('["one", 2]', "Expected `str`, got `int` - at `$[1]`"),
+        ('["one", 2]', "Expected `str`, got `int` 2 - at `$[1]`"),
         ("one", "JSON is malformed: invalid character (column 1)"),
         (None, "No such file or directory"),
     ],

@@ -167,7 +167,7 @@ def test_the_names_in_a_plan_must_be_known():
 
 def test_the_instance_of_a_plan_must_be_one():
     assert complaint(replace(PLAN, instance={"start": "here"})) == (
-        "the plan's instance: Expected `float`, got `str` - at `$.start`"
+        'the plan\'s instance: Expected `float`, got `str` "here" - at `$.start`'
     )
     assert (
         complaint(replace(PLAN, instance={"start": 11.0}))

@@ -157,7 +157,7 @@ WRONG = {
     "walks.toml --set x": "argument --set: expected FIELD=VALUE, not 'x'. See 'llm3 experiment --help'.",
     "walks.toml --set planner=rrt": "walks.toml: unknown field `planner`, expected name, problems, methods, title, "
     "attempts, first_seed, run, layouts, published, budgets - at `$`",
-    "walks.toml --attempts ten": "walks.toml: Expected `int`, got `str` - at `$.attempts`",
+    "walks.toml --attempts ten": 'walks.toml: Expected `int`, got `str` "ten" - at `$.attempts`',
     "walks.toml --set run.planner=rrt": "unknown planner 'rrt'; did you mean 'birrt'? Known: birrt, ompl-bitstar, "
     "ompl-lbkpiece, ompl-rrtconnect.",
 }

@@ -138,7 +138,7 @@ WRONG = {
     "no problem": ({"problems": []}, "walks.toml: an experiment needs at least one problem"),
     "no attempt": ({"attempts": 0}, "walks.toml: attempts must be from 1 to 100000, not 0"),
     "a negative seed": ({"first_seed": -1}, "walks.toml: first_seed must be from 0 to 9223372036854675807, not -1"),
-    "attempts as text": ({"attempts": "ten"}, "walks.toml: Expected `int`, got `str` - at `$.attempts`"),
+    "attempts as text": ({"attempts": "ten"}, 'walks.toml: Expected `int`, got `str` "ten" - at `$.attempts`'),
     "no name": ({"methods": [{"llm": "random"}]}, "walks.toml: method 1 needs a name"),
     "a name twice": ({"methods": [{"name": "a"}, {"name": "a"}]}, "walks.toml: the method 'a' is there twice"),
     "an empty list": ({"methods": [{"name": "a", "model": []}]}, "walks.toml: method 'a' has an empty list of model"),
@@ -167,11 +167,11 @@ WRONG = {
     ),
     "half a call": (
         {"budgets": {"motion_calls": [1.5]}},
-        "walks.toml: Expected `int`, got `float` - at `$.budgets.motion_calls[0]`",
+        "walks.toml: Expected `int`, got `float` 1.5 - at `$.budgets.motion_calls[0]`",
     ),
     "a budget without a list": (
         {"budgets": {"motion_calls": 10}},
-        "walks.toml: Expected `array`, got `int` - at `$.budgets.motion_calls`",
+        "walks.toml: Expected `array`, got `int` 10 - at `$.budgets.motion_calls`",
     ),
     "budgets that are a list": (
         {"budgets": [1, 2]},
@@ -211,7 +211,7 @@ WRONG = {
     ),
     "a value of another type": (
         {"methods": [{"name": "a", "trace_size": "five"}]},
-        "walks.toml: method 'a': Expected `int`, got `str` - at `$.trace_size`",
+        "walks.toml: method 'a': Expected `int`, got `str` \"five\" - at `$.trace_size`",
     ),
 }
 

@@ -82,7 +82,7 @@ WRONG = [
     ),
     ("foods.0.name", "jar", "two things or places are called jar"),
     ("foods.0.name", "basin_left", "two things or places are called basin_left"),
-    ("foods.0.washed", "yes", "Expected `bool`, got `str` - at `$.foods[0].washed`"),
+    ("foods.0.washed", "yes", 'Expected `bool`, got `str` "yes" - at `$.foods[0].washed`'),
     ("foods.0.position", [0.6, 0.07], "leek and corn start in one another"),
     ("foods.0.position", [0.66, 0.0], f"leek {IN_A_PLACE}"),
     ("foods.0.raw", True, "unknown field `raw`, expected name, size, position, yaw, washed, heated - at `$.foods[0]`"),

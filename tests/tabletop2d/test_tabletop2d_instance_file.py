@@ -25,7 +25,7 @@ GOOD = {
 }
 TAKEN = "robot, room, outer_wall, itself"
 WRONG = [
-    ("objects.0.name", 7, "Expected `str`, got `int` - at `$.objects[0].name`"),
+    ("objects.0.name", 7, "Expected `str`, got `int` 7 - at `$.objects[0].name`"),
     (
         "objects.0.name",
         "red disc",
@@ -38,7 +38,7 @@ WRONG = [
     ),
     ("objects.0.name", "room", f"nothing can be called 'room'; these names are taken: {TAKEN} - at `$.objects[0]`"),
     ("objects.0.shape", "ball", "Invalid enum value 'ball' - at `$.objects[0].shape`; valid: 'box', 'disc'"),
-    ("objects.1.size", [0.1], "Expected `array` of length 2 - at `$.objects[1].size`"),
+    ("objects.1.size", [0.1], "Expected `array` of length 2, got 1 - at `$.objects[1].size`"),
     ("objects.1.size.0", 0.0, "the sides of blue_box must be 0.01 to 5 m, not [0.0, 0.06] - at `$.objects[1]`"),
     (
         "objects.0.size.0",

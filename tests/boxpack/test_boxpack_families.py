@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from packing_world import BASKET, after, box, pick, place, problem, refused
 
 from llm3.assembly import RunConfig, open_problem
+from llm3.errors import UsageError
 from llm3.interfaces import PlannerSettings
 from llm3.jsonio import dumps, loads, pretty
 from llm3.registry import Registry
@@ -20,6 +21,7 @@ from llm3.solve import context_of
 from llm3.types import Action, Failure, FailureKind, State
 from llm3.witness import witness
 from llm3_boxpack.domain import BoxPack
+from llm3_boxpack.families import FAMILIES, drafted
 from llm3_boxpack.instance import BoxpackInstance, BoxSpec
 from llm3_boxpack.paper_settings import SETTINGS as OF_THE_PAPER
 from llm3_bullet.tabletop.rectangles import Rectangle
@@ -53,6 +55,28 @@ def test_the_families_and_their_sizes():
         *("clutter-4", "clutter-8"),
         *("lanes-4", "lanes-8"),
     ) == MADE
+
+
+@pytest.mark.parametrize(
+    ("family", "count", "sentence"),
+    [
+        ("stairs", 6, "unknown family 'stairs'. Known: clutter, dense, far, lanes."),
+        ("dense", 3, "a family has from 4 to 12 boxes, not 3."),
+        ("dense", 13, "a family has from 4 to 12 boxes, not 13."),
+    ],
+)
+def test_a_family_or_a_size_that_is_not_there_is_refused(family, count, sentence):
+    with pytest.raises(UsageError) as caught:
+        drafted(family, count, 0)
+    assert str(caught.value) == sentence
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.sampled_from(sorted(FAMILIES)), st.integers(4, 12), seeds)
+def test_any_size_between_can_be_had(family, count, seed):
+    instance = drafted(family, count, seed).instance
+    assert len(instance.boxes) == count
+    assert len(instance.clutter) == (count if family == "clutter" else 0)
 
 
 # ---- what holds for all of them --------------------------------------------------------------------------------------

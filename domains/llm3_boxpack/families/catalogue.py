@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from llm3.errors import LLM3Error, UnknownName, UsageError
 from llm3.seeding import generator
 from llm3.types import FrozenDict
 from llm3_boxpack.families.clutter import clutter
@@ -19,6 +20,8 @@ from llm3_bullet.robots import panda
 Family = Callable[[int, Hand, np.random.Generator], Draft | None]
 """Drafts a problem with so many boxes; None where this did not come to anything."""
 FAMILIES: Mapping[str, Family] = FrozenDict({"dense": dense, "far": far, "clutter": clutter, "lanes": lanes})
+COUNTS = range(4, 13)
+"""How many boxes there may be: with fewer no family is a puzzle, and with more there are no names for them."""
 DRAFTS = 3000
 """How many are made for a problem at most; most problems take a few."""
 
@@ -27,11 +30,17 @@ def drafted(family: str, count: int, seed: int) -> Draft:
     """The problem of a family with so many boxes.
 
     Raises:
-        RuntimeError: No draft came to anything: the family cannot be made with so many boxes.
+        UnknownName: There is no such family.
+        UsageError: It cannot be made with so many boxes.
+        LLM3Error: No draft came to anything.
     """
+    if family not in FAMILIES:
+        raise UnknownName("family", family, FAMILIES)
+    if count not in COUNTS:
+        raise UsageError(f"a family has from {COUNTS[0]} to {COUNTS[-1]} boxes, not {count}.")
     hand, rng = Hand.of(panda().gripper), generator("boxpack", f"{family}-{count}", seed)
     for _ in range(DRAFTS):
         draft = FAMILIES[family](count, hand, rng)
         if draft and draft.is_proven(hand) and draft.is_a_puzzle(hand):
             return draft
-    raise RuntimeError(f"none of {DRAFTS} drafts of {family}-{count}, seed {seed}, came to a problem with a solution")
+    raise LLM3Error(f"none of {DRAFTS} drafts of {family}-{count} with seed {seed} came to a problem with a solution.")

@@ -15,7 +15,7 @@ FILLING = Filling()
 
 
 def clutter(count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
-    """So many boxes, half as many things in the tray, and as many beside boxes that cannot be taken because of them.
+    """So many boxes and as many things: half of these in the tray, the others beside boxes that so cannot be taken.
 
     The things go aside first; None where there is no spot for one of them.
     """
@@ -23,7 +23,7 @@ def clutter(count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
     if filled is None:
         return None
     tray, packing = filled
-    things = drawn_clutter(2 * (count // 2), rng)
+    things = drawn_clutter(count, rng)
     inside = packed(things[::2], tray, hand, rng)
     boxes = spread(packing, (*tray.walls, *packing, *inside), hand, rng)
     if boxes is None or len(inside) < len(things[::2]):

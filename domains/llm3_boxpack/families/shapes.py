@@ -20,7 +20,20 @@ COLORS = (
     "white",
     "black",
 )
-CLUTTER = ("paint_can", "glue_can", "screw_tin", "tape_case", "lamp_base", "wire_spool", "wax_tin", "oil_can")
+CLUTTER = (
+    "paint_can",
+    "glue_can",
+    "screw_tin",
+    "tape_case",
+    "lamp_base",
+    "wire_spool",
+    "wax_tin",
+    "oil_can",
+    "salt_tub",
+    "soap_case",
+    "drill_case",
+    "bolt_tin",
+)
 Heights = tuple[tuple[float, ...], ...]
 """Kinds of heights, in millimetres, each of which some boxes have."""
 MIXED: Heights = ((26.0, 30.0), (56.0, 60.0, 64.0), (80.0, 84.0, 90.0))

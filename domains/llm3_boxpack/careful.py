@@ -47,8 +47,8 @@ def careful_reply(context: Context, rng: np.random.Generator) -> str:
 def _moves(view: View, rng: np.random.Generator) -> tuple[Moves, int]:
     """Where everything goes in a packing by chance, and how many boxes are left out."""
     goals = {box.name: box for box in packed(from_low_to_tall(view.boxes, rng), view.tray, view.hand, rng, view.packed)}
-    there = (*view.tray.walls, *view.packed, *goals.values())
-    aside = spread(view.things, (*there, *view.things), view.hand, rng, leave=view.boxes) or ()
+    obstacles = (*view.tray.walls, *view.packed, *goals.values())
+    aside = spread(view.things, (*obstacles, *view.things), view.hand, rng, keep_free=view.boxes) or ()
     goals = {**{thing.name: thing for thing in aside}, **goals}
     now = {thing.name: thing for thing in (*view.boxes, *view.packed, *view.things)}
     moves: list[Standing] = []

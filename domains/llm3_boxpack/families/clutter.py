@@ -31,6 +31,6 @@ def clutter(count: int, hand: Hand, rng: np.random.Generator) -> Draft | None:
     outside = beside(things[1::2], boxes, (*tray.walls, *inside), hand, rng)
     if outside is None:
         return None
-    there = (*tray.walls, *packing, *inside)
-    aside = spread((*outside, *reversed(inside)), there, hand, rng, leave=(*boxes, *outside))
+    obstacles = (*tray.walls, *packing, *inside)
+    aside = spread((*outside, *reversed(inside)), obstacles, hand, rng, keep_free=(*boxes, *outside))
     return Draft(tray, boxes, (*aside, *packing), (*outside, *inside)) if aside else None

@@ -24,7 +24,7 @@ Packing = tuple[Standing, ...]
 
 
 def packed(
-    boxes: Sequence[Standing], tray: Tray, hand: Hand, rng: np.random.Generator, there: Sequence[Standing] = ()
+    boxes: Sequence[Standing], tray: Tray, hand: Hand, rng: np.random.Generator, obstacles: Sequence[Standing] = ()
 ) -> Packing:
     """Put the boxes into the tray in this order; it ends before the first one that finds no spot.
 
@@ -33,18 +33,13 @@ def packed(
         tray: Where they go.
         hand: What puts them down.
         rng: Draws the corner that all of them come close to, and the spots among the best ones.
-        there: What is in the way already.
+        obstacles: What is in the way already.
     """
     corner = np.array([tray.low, tray.high])[rng.integers(2, size=2), (0, 1)]
     slant = rng.uniform(0.6, 1.4)
     done: list[Standing] = []
     for box in boxes:
-        ways = (box.raised(FLOOR), box.raised(FLOOR).turned())
-        spots = [
-            way.at(x, y)
-            for way in ways
-            for x, y in flush(way, (*tray.walls, *there, *done), tray.low, tray.high, hand).tolist()
-        ]
+        spots = flush(box.raised(FLOOR), (*tray.walls, *obstacles, *done), tray.low, tray.high, hand)
         if not spots:
             break
         spots.sort(key=lambda spot: abs(spot.x - corner[0]) + slant * abs(spot.y - corner[1]))

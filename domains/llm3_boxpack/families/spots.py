@@ -21,23 +21,26 @@ Centers = NDArray[np.float64]
 
 
 def flush(
-    box: Standing, there: Sequence[Standing], low: tuple[float, float], high: tuple[float, float], hand: Hand
-) -> Centers:
-    """Centres at which a box is flush with things or walls, a finger away or in line, with room for the hand.
+    box: Standing, obstacles: Sequence[Standing], low: tuple[float, float], high: tuple[float, float], hand: Hand
+) -> list[Standing]:
+    """Where a box is flush with things or walls, a finger away or in line, with room for the hand.
 
     Args:
-        box: The box, turned as it is to be.
-        there: What is there already.
+        box: Wherever it stands, on what it is to stand on; it is tried as it is and turned by a quarter.
+        obstacles: What is there already.
         low: The corner of the area in which the whole box has to stand, with a gap to its border,
         high: and the opposite one.
         hand: What puts the box down.
     """
-    axes = (
-        _along([(t.x, t.dx) for t in there], box.dx, (low[0], high[0]), hand.room),
-        _along([(t.y, t.dy) for t in there], box.dy, (low[1], high[1]), hand.room),
-    )
-    centers = within_reach(np.array(list(product(*axes)), dtype=float).reshape(-1, 2))
-    return centers[hand.free(box, centers, there)]
+    found = []
+    for turned in (box, box.turned()):
+        axes = (
+            _along([(t.x, t.dx) for t in obstacles], turned.dx, (low[0], high[0]), hand.room),
+            _along([(t.y, t.dy) for t in obstacles], turned.dy, (low[1], high[1]), hand.room),
+        )
+        centers = within_reach(np.array(list(product(*axes)), dtype=float).reshape(-1, 2))
+        found += [turned.at(x, y) for x, y in centers[hand.free(turned, centers, obstacles)].tolist()]
+    return found
 
 
 def is_within_reach(box: Standing) -> bool:
@@ -51,10 +54,12 @@ def within_reach(centers: Centers) -> Centers:
     return centers[(radius >= NEAREST) & (radius <= FARTHEST)]
 
 
-def _along(there: Iterable[tuple[float, float]], side: float, ends: tuple[float, float], finger: float) -> list[float]:
+def _along(
+    obstacles: Iterable[tuple[float, float]], side: float, ends: tuple[float, float], finger: float
+) -> list[float]:
     """Coordinates along one axis."""
     found = {ends[0] + side / 2 + GAP, ends[1] - side / 2 - GAP}
-    for center, length in there:
+    for center, length in obstacles:
         beside = (length + side) / 2
         found |= {center + offset for gap in (GAP, finger) for offset in (-beside - gap, 0.0, beside + gap)}
     return sorted(at for at in found if ends[0] + side / 2 + GAP <= at <= ends[1] - side / 2 - GAP)

@@ -20,23 +20,23 @@ CHOICE = 6
 
 def spread(
     boxes: Sequence[Standing],
-    there: Sequence[Standing],
+    obstacles: Sequence[Standing],
     hand: Hand,
     rng: np.random.Generator,
-    leave: Sequence[Standing] = (),
+    keep_free: Sequence[Standing] = (),
 ) -> tuple[Standing, ...] | None:
     """Spots on the table from which each box can be taken while all others are there; None where there are none.
 
     Args:
         boxes: Wherever they stand; each is turned by a quarter at random.
-        there: What else can be in the way.
+        obstacles: What else can be in the way.
         hand: What takes them.
         rng: Draws the spots.
-        leave: What must not be harder to take than before; it is there, too.
+        keep_free: What must not be harder to take than before; it is there, too.
     """
     done: list[Standing] = []
     for box in boxes:
-        spot = next(_leaving_room(box, (*done, *leave), there, hand, rng), None)
+        spot = next(_leaving_room(box, (*done, *keep_free), obstacles, hand, rng), None)
         if spot is None:
             return None
         done.append(spot)
@@ -44,21 +44,21 @@ def spread(
 
 
 def _leaving_room(
-    box: Standing, others: Sequence[Standing], there: Sequence[Standing], hand: Hand, rng: np.random.Generator
+    box: Standing, others: Sequence[Standing], obstacles: Sequence[Standing], hand: Hand, rng: np.random.Generator
 ) -> Iterator[Standing]:
     """Where the box can be taken, and is in nobody's way."""
-    way = (box.turned() if rng.random() < 0.5 else box).raised(0.0)
+    turned = (box.turned() if rng.random() < 0.5 else box).raised(0.0)
     radius, angle = rng.uniform(NEAREST, FARTHEST, DRAWS), rng.uniform(-BEHIND, BEHIND, DRAWS)
     centers = (radius * (np.cos(angle), np.sin(angle))).T.round()
-    for x, y in centers[hand.free(way, centers, (*there, *others))].tolist():
-        spot = way.at(x, y)
+    for x, y in centers[hand.free(turned, centers, (*obstacles, *others))].tolist():
+        spot = turned.at(x, y)
         if all(hand.is_free(other, (spot,)) for other in others):
             yield spot
 
 
 def crowded(
     boxes: Sequence[Standing],
-    there: Sequence[Standing],
+    obstacles: Sequence[Standing],
     low: tuple[float, float],
     high: tuple[float, float],
     hand: Hand,
@@ -70,7 +70,7 @@ def crowded(
 
     Args:
         boxes: Wherever they stand, in the order in which they are to be taken.
-        there: What else can be in the way.
+        obstacles: What else can be in the way.
         low: The corner of the area in which they start,
         high: and the opposite one.
         hand: What takes them.
@@ -78,8 +78,7 @@ def crowded(
     """
     done: list[Standing] = []
     for box in reversed(boxes):
-        ways = (box.raised(0.0), box.raised(0.0).turned())
-        spots = [way.at(x, y) for way in ways for x, y in flush(way, (*there, *done), low, high, hand).tolist()]
+        spots = flush(box.raised(0.0), (*obstacles, *done), low, high, hand)
         if not spots:
             return None
         middle = np.mean([(d.x, d.y) for d in done], axis=0) if done else (np.array(low) + high) / 2
@@ -99,7 +98,7 @@ def _hindrance(spot: Standing, done: Sequence[Standing], hand: Hand) -> int:
 def beside(
     things: Sequence[Standing],
     boxes: Sequence[Standing],
-    there: Sequence[Standing],
+    obstacles: Sequence[Standing],
     hand: Hand,
     rng: np.random.Generator,
 ) -> tuple[Standing, ...] | None:
@@ -107,12 +106,10 @@ def beside(
     done: list[Standing] = []
     for thing, index in zip(things, rng.permutation(len(boxes)).tolist(), strict=False):
         box = boxes[index]
-        spots = [
-            way.at(x, y)
-            for way in (thing.raised(0.0), thing.raised(0.0).turned())
-            for x, y in flush(way, (box,), (-FARTHEST, -FARTHEST), (FARTHEST, FARTHEST), hand).tolist()
+        spots = flush(thing.raised(0.0), (box,), (-FARTHEST, -FARTHEST), (FARTHEST, FARTHEST), hand)
+        good = [
+            spot for spot in spots if hand.in_the_way(box, (spot,)) and hand.is_free(spot, (*obstacles, *boxes, *done))
         ]
-        good = [spot for spot in spots if hand.in_the_way(box, (spot,)) and hand.is_free(spot, (*there, *boxes, *done))]
         if not good:
             return None
         done.append(good[int(rng.integers(len(good)))])

@@ -24,6 +24,7 @@ from llm3.experiments import (
     ExperimentWriter,
     MethodOutlook,
     RunLine,
+    continued,
     look_ahead,
     missing_jobs,
     read_experiment_folder,
@@ -75,13 +76,13 @@ def run(arguments: Namespace, out: TextIO) -> int:
         raise UsageError("--workers and --dask both say where runs are done: give one of them.")
     outlooks = look_ahead(registry, experiment)
     folder: Path = arguments.out or FOLDER / whole.name
+    versions = versions_of(experiment, outlooks.values())
     if arguments.dry_run:
-        done = read_experiment_folder(folder).runs if folder.exists() else {}
+        _, done = continued(folder, whole, versions, arguments.mix_versions)
         jobs = missing_jobs(experiment, done, arguments.retry)
         lines = preview(experiment, shares(experiment, jobs, outlooks), folder)
         emit("".join(f"{printable(line, keep_spaces=True)}\n" for line in lines), out)
         return 0
-    versions = versions_of(experiment, outlooks.values())
     with (
         _executor(arguments) as (executor, slots),
         ExperimentWriter(folder, whole, versions, arguments.mix_versions) as writer,

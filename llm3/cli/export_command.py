@@ -38,6 +38,8 @@ def add_arguments(parser: ArgumentParser) -> None:
 def run(arguments: Namespace, out: TextIO) -> int:
     """Run the command."""
     name, file = _chosen(arguments)
+    if file.exists() and arguments.plan.exists() and file.samefile(arguments.plan):
+        raise UsageError(f"'{file}' is the plan itself: choose another file with --out.")
     check_free(file, arguments.force)
     plan = read_plan(arguments.plan)
     program = program_of(plan)

@@ -65,15 +65,24 @@ def read_experiment_folder(folder: Path) -> ExperimentRecord:
     Raises:
         InputError: It is no such folder, or something in it does not have the documented form.
     """
+    file = read_experiment_file(folder)
+    ended = read_runs(folder / RUNS_FILE)
+    ours = FrozenDict({key: ended[key] for key in keys_of(file.experiment) if key in ended})
+    return ExperimentRecord(folder, file.experiment, file.versions, ours, file.earlier, len(ended) - len(ours))
+
+
+def read_experiment_file(folder: Path) -> ExperimentFile:
+    """What was asked in an experiment's folder, and with which versions.
+
+    Raises:
+        InputError: It is no such folder, or its experiment.json does not have the documented form.
+    """
     path = folder / EXPERIMENT_FILE
     if not folder.exists():
         raise InputError(f"{folder}: No such file or directory")
     if not path.exists():
         raise InputError(f"'{folder}' holds no {EXPERIMENT_FILE}: it is not the folder of an experiment.")
-    file = read_stated(path, ExperimentFile, EXPERIMENT_FORMAT)
-    ended = read_runs(folder / RUNS_FILE)
-    ours = FrozenDict({key: ended[key] for key in keys_of(file.experiment) if key in ended})
-    return ExperimentRecord(folder, file.experiment, file.versions, ours, file.earlier, len(ended) - len(ours))
+    return read_stated(path, ExperimentFile, EXPERIMENT_FORMAT)
 
 
 def read_runs(path: Path) -> dict[RunKey, RunLine]:

@@ -9,24 +9,14 @@ from types import TracebackType
 
 from filelock import FileLock, Timeout
 
-from llm3.errors import LLM3Error, OutputExists
-from llm3.experiments.continuation import differences, joined, version_differences
+from llm3.errors import LLM3Error
+from llm3.experiments.continuation import LOCK, check_place, continued
 from llm3.experiments.experiment import Experiment, RunKey
-from llm3.experiments.folder import (
-    EXPERIMENT_FILE,
-    EXPERIMENT_FORMAT,
-    RUNS_FILE,
-    RUNS_FORMAT,
-    ExperimentFile,
-    read_runs,
-)
+from llm3.experiments.folder import EXPERIMENT_FILE, RUNS_FILE, RUNS_FORMAT
 from llm3.experiments.run_line import RunLine
-from llm3.jsonio import pretty, read_file
+from llm3.jsonio import pretty
 from llm3.records.json_lines import LineWriter
-from llm3.records.whole_file import is_beside, write_whole
-from llm3.types import FrozenDict
-
-LOCK = "lock"
+from llm3.records.whole_file import write_whole
 
 
 class ExperimentWriter:
@@ -85,13 +75,7 @@ class ExperimentWriter:
         return LLM3Error(f"the output folder '{self.folder}' cannot be written: {error.strerror or error}.")
 
     def _take_hold(self) -> None:
-        if self.folder.exists() and not self.folder.is_dir():
-            raise OutputExists(f"'{self.folder}' is a file, not a folder: choose another.")
-        path = self.folder / EXPERIMENT_FILE
-        if self.folder.exists() and not path.exists() and not all(map(_is_ours, self.folder.iterdir())):
-            raise OutputExists(
-                f"the output folder '{self.folder}' is not empty and holds no experiment: choose another."
-            )
+        check_place(self.folder)
         self.folder.mkdir(parents=True, exist_ok=True)
         lock = FileLock(self.folder / LOCK)
         try:
@@ -100,33 +84,7 @@ class ExperimentWriter:
             raise LLM3Error(
                 f"another program is writing '{self.folder}': wait for it, or choose another folder."
             ) from None
-        self.ended = read_runs(self.folder / RUNS_FILE)
-        file = ExperimentFile(EXPERIMENT_FORMAT, self._experiment, self._versions)
-        if path.exists():
-            file = self._continued(read_file(path, ExperimentFile))
-        write_whole(path, pretty(file))
+        file, self.ended = continued(self.folder, self._experiment, self._versions, self._mix_versions)
+        write_whole(self.folder / EXPERIMENT_FILE, pretty(file))
         self._lines = LineWriter(self.folder / RUNS_FILE, RUNS_FORMAT, go_on=True)
         self._stack.callback(self._lines.close)
-
-    def _continued(self, found: ExperimentFile) -> ExperimentFile:
-        """What experiment.json says from now on."""
-        for difference in differences(found.experiment, self._experiment, self.ended):
-            raise OutputExists(f"'{self.folder}' holds another experiment: {difference}. Choose another folder.")
-        changed = version_differences(found.versions, self._versions) if self.ended else {}
-        for name, version in changed.items():
-            if not self._mix_versions:
-                raise OutputExists(
-                    f"'{self.folder}' was made with {name} {version}, and here is {self._versions[name]}: choose "
-                    "another folder, or give --mix-versions to go on with both."
-                )
-        return ExperimentFile(
-            EXPERIMENT_FORMAT,
-            joined(found.experiment, self._experiment, self.ended),
-            {**found.versions, **self._versions},
-            (*found.earlier, FrozenDict(changed)) if changed else found.earlier,
-        )
-
-
-def _is_ours(path: Path) -> bool:
-    """Whether a file may be there before there is an experiment, as after a program that was killed at once."""
-    return path.name == LOCK or is_beside(path, EXPERIMENT_FILE)

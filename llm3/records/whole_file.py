@@ -9,12 +9,19 @@ ENDING = ".new"
 
 
 def write_whole(path: Path, content: str | bytes) -> None:
-    """Write a file beside its place and move it there: whoever is killed leaves the old file or the new one."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}{ENDING}")
+    """Write a file beside its place and move it there: whoever is killed leaves the old file or the new one.
+
+    Links are followed. What stands there and is no file, such as a pipe or a device, is written to as it is.
+    """
+    data = content.encode() if isinstance(content, str) else content
+    place = Path(os.path.realpath(path))
+    if place.exists() and not place.is_file():
+        place.write_bytes(data)
+        return
+    beside = place.with_name(f"{place.name}.{os.getpid()}{ENDING}")
     try:
-        # A killed process of this number may have left one.
-        beside.write_bytes(content.encode() if isinstance(content, str) else content)
-        beside.replace(path)
+        beside.write_bytes(data)  # a killed process of this number may have left one
+        beside.replace(place)
     except OSError:
         beside.unlink(missing_ok=True)
         raise

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from llm3.experiments import ExperimentRecord
+from llm3.experiments import ExperimentRecord, setting_differences
 from llm3.results.cells import Cell
 from llm3.results.differences import common_problems
 from llm3.results.measures import without_model
@@ -74,11 +74,8 @@ def remarks_between(later: ExperimentRecord, first: ExperimentRecord) -> Iterato
             yield f"Other versions: {one_line(name)} is {one_line(after)} and was {one_line(before)}."
     settings = {method.name: method.settings for method in first.experiment.methods}
     for method in later.experiment.methods:
-        then, now = settings.get(method.name, method.settings), method.settings
-        for name in sorted({*then, *now}):
-            if then.get(name) != now.get(name):
-                told = (one_line(str(there.get(name, "left out"))) for there in (now, then))
-                yield f"Other settings of {one_line(method.name)}: {name} is {' and was '.join(told)}."
+        for difference in setting_differences(settings.get(method.name, method.settings), method.settings):
+            yield f"Other settings of {one_line(method.name)}: {one_line(difference)}."
     names = {problem.name for problem in first.experiment.problems}
     alike = common_problems(later.experiment, first.experiment)
     for problem in later.experiment.problems:

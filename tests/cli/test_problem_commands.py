@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 
 import pytest
 
@@ -37,6 +38,22 @@ def test_instance_overwrites_only_by_force(command, cwd):
     assert (cwd / "problem.json").read_text() == "mine"
     assert command("instance --domain corridor --out problem.json --force").code == 0
     assert (cwd / "problem.json").read_text() == command("instance --domain corridor").out
+
+
+def test_force_follows_a_link_and_writes_into_a_pipe(command, cwd):
+    (cwd / "there.json").touch()
+    (cwd / "link.json").symlink_to("there.json")
+    assert command("instance --domain corridor --out link.json --force").code == 0
+    assert (cwd / "link.json").is_symlink()
+    assert (cwd / "there.json").read_text() == command("instance --domain corridor").out
+    os.mkfifo(cwd / "pipe")
+    reader = os.open(cwd / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        assert command("instance --domain corridor --out pipe --force").code == 0
+        assert os.read(reader, 10_000) == (cwd / "there.json").read_bytes()
+    finally:
+        os.close(reader)
+    assert (cwd / "pipe").is_fifo()
 
 
 def test_instance_says_why_a_file_cannot_be_written(command):

@@ -84,6 +84,24 @@ def test_a_dry_run_counts_the_calls_of_models_and_leaves_out_what_is_done(comman
     )
 
 
+@pytest.mark.parametrize("dry", ["", " --dry-run"])
+def test_a_dry_run_refuses_what_the_run_would_refuse(command, dry):
+    command("experiment walks.toml --out out --quiet --attempts 1")
+    ended = command(f"experiment walks.toml --out out --set methods.random.max_llm_calls=7{dry}")
+    assert (ended.code, ended.err) == (
+        2,
+        "llm3: error: 'out' holds another experiment: of its method 'random' max_llm_calls is 7 and was 30. Choose "
+        "another folder.\n",
+    )
+    Path("mine").mkdir()
+    Path("mine/thesis.tex").touch()
+    ended = command(f"experiment walks.toml --out mine{dry}")
+    assert (ended.code, ended.err) == (
+        2,
+        "llm3: error: the output folder 'mine' is not empty and holds no experiment: choose another.\n",
+    )
+
+
 def test_a_run_that_failed_is_told_and_done_again_when_asked(command):
     Path("replies.json").write_text("[]")
     Path("walks.toml").write_text(TOML + '\n[[methods]]\nname = "scripted"\nllm = "scripted:replies.json"\n')

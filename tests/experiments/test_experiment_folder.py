@@ -101,11 +101,11 @@ class TestGoingOn:
             ({"name": "runs"}, "its name is 'walks', not 'runs'"),
             (
                 {"methods": [{"name": "random", **RANDOM}, {"name": "one random try", **RANDOM}]},
-                "its method 'random' has other settings",
+                "of its method 'random' max_llm_calls is left out and was 30",
             ),
             (
                 {"problems": [{"domain": "corridor", "setting": "default", "options": {"a": "b"}}]},
-                "its problem 'default' has other settings",
+                "of its problem 'default' a is b and was left out",
             ),
         ],
     )
@@ -116,6 +116,16 @@ class TestGoingOn:
             carry_out(HERE, experiment(**changes))
         assert str(caught.value) == f"'out' holds another experiment: {said}. Choose another folder."
         assert {f.name: f.read_bytes() for f in HERE.iterdir() if f.is_file()} == before
+
+    def test_a_problem_of_another_name_is_refused_as_it_would_count_twice(self):
+        carry_out(HERE, experiment())
+        named = {**CORRIDOR["problems"][0], "name": "corridor/default"}
+        with pytest.raises(OutputExists) as caught:
+            carry_out(HERE, experiment(problems=[named]))
+        assert str(caught.value) == (
+            "'out' holds another experiment: its problem 'default' is called 'corridor/default' now. "
+            "Choose another folder."
+        )
 
     def test_more_seeds_methods_and_problems_are_the_same_experiment(self):
         carry_out(HERE, experiment(attempts=2))

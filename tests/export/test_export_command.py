@@ -75,6 +75,17 @@ def test_what_makes_no_sense_is_a_usage_error(command, solved, flags, sentence):
     assert sorted(Path().iterdir()) == [Path("run")]
 
 
+@pytest.mark.parametrize("flags", ["", " --force", " --out ./walk.json --force"])
+def test_a_plan_is_never_overwritten_by_its_own_export(command, solved, flags):
+    plan = Path("run/plan.json").rename("walk.json").read_bytes()
+    ended = command(f"export walk.json{flags}")
+    assert (ended.code, ended.err) == (
+        2,
+        "llm3: error: 'walk.json' is the plan itself: choose another file with --out.\n",
+    )
+    assert Path("walk.json").read_bytes() == plan
+
+
 def test_a_file_that_cannot_be_written_leaves_nothing_behind(command, solved):
     Path("there.csv").mkdir()
     ended = command("export run --out there.csv --force")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,14 @@ from llm3_bullet.kinematics import Kinematics
 Array = NDArray[np.float64]
 
 _SWEEPS = 20
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A disc in the world's x and y, in metres."""
+
+    center: tuple[float, float]
+    radius: float
 
 
 class ArmLength:
@@ -35,6 +45,10 @@ class ArmLength:
         self._length = float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() + travel)
         self.highest = float(self._first[2] + self._length + self._last[2])
         """The tool is never higher than this while it points straight down, in metres."""
+        self.disc = Disc(
+            (float(self._first[0]), float(self._first[1])), self._length + float(np.linalg.norm(self._last[:2]))
+        )
+        """Which the tool never leaves, seen from above, while it points straight down."""
 
     def too_short(self, targets: Array, position_tolerance: float, rotation_tolerance: float) -> NDArray[np.bool_]:
         """For which tool poses (B, 4, 4) the arm is certainly too short: (B,). The others may be out of reach as well.

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from llm3_bullet.arm_length import ArmLength
+from llm3_bullet.arm_length import ArmLength, Disc
 from llm3_bullet.descent import BOLD, CAUTIOUS, POSITION_TOLERANCE, ROTATION_TOLERANCE, descend, within_tolerance
 from llm3_bullet.kinematics import Kinematics
 from llm3_bullet.starts import StartTable
@@ -94,6 +94,11 @@ class InverseKinematics:
     def too_far(self, targets: Array) -> NDArray[np.bool_]:
         """For which targets (B, 4, 4) the arm is certainly too short, (B,); the others may be out of reach as well."""
         return self._length.too_short(targets, POSITION_TOLERANCE, ROTATION_TOLERANCE)
+
+    @property
+    def disc(self) -> Disc:
+        """The tool certainly never leaves it, seen from above, while it points straight down."""
+        return self._length.disc
 
     @property
     def highest(self) -> float:

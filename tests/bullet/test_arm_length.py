@@ -7,7 +7,7 @@ import pytest
 from branching_arm import JOINTS, branching_arm, urdf
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tool_poses import beyond_the_panda, random_top_down
+from tool_poses import beyond_the_panda, random_top_down, top_down
 from toy_arm import toy_arm
 
 from llm3_bullet.arm_length import ArmLength
@@ -44,6 +44,15 @@ def stretched(arm, rng, count):
 def test_no_pose_of_a_configuration_is_too_far(arms, lengths, name, seed):
     poses = arms[name].tool(stretched(arms[name], np.random.default_rng(seed), 200))
     assert not lengths[name].too_short(poses, 1e-9, 0.0).any()
+
+
+@given(st.sampled_from(ROBOTS), seeds, st.floats(-1.0, 3.0))
+def test_beyond_the_disc_no_height_is_within_reach_from_above(lengths, name, seed, height):
+    disc = lengths[name].disc
+    azimuth, yaw = np.random.default_rng(seed).uniform(-np.pi, np.pi, (2, 50))
+    beyond = disc.radius + 1e-9
+    x, y = disc.center[0] + beyond * np.cos(azimuth), disc.center[1] + beyond * np.sin(azimuth)
+    assert lengths[name].too_short(top_down(x, y, height, yaw), 0.0, 0.0).all()
 
 
 @given(st.sampled_from(ROBOTS), seeds, st.floats(0.0, 1e-3), st.floats(0.0, 1e-3))

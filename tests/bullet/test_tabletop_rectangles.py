@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import cos, pi, sin
+from math import cos, dist, pi, sin
 
 import numpy as np
 import pytest
@@ -41,6 +41,16 @@ def clear_cut(a: Rectangle, b: Rectangle) -> bool:
 @given(rectangles, rectangles)
 def test_overlap_is_symmetric(a, b):
     assert a.overlaps(b) == b.overlaps(a)
+
+
+@given(rectangles, coordinates, coordinates)
+def test_no_corner_is_nearer_than_the_nearest_point_which_is_in_it(a, x, y):
+    found = a.nearest((x, y))
+    assert scaled(a, 1 + 1e-9).contains(found)
+    assert dist(found, (x, y)) <= np.hypot(*(a.corners - (x, y)).T).min() + 1e-12
+    assert a.nearest(found) == pytest.approx(found, abs=1e-12)
+    if a.contains((x, y)):
+        assert found == pytest.approx((x, y), abs=1e-12)
 
 
 @given(rectangles)

@@ -83,6 +83,17 @@ def test_an_area_where_the_arm_stands(cells, robot, angle):
     Tabletop(cells[robot], (table(),), (), areas={"tray": there})
 
 
+@pytest.mark.parametrize("robot", ["panda", "iiwa"])
+@pytest.mark.parametrize("angle", [0.0, 0.4, pi / 2])
+def test_an_area_of_which_no_point_is_within_reach(cells, robot, angle):
+    direction = cos(angle), sin(angle)
+    away, half_way = (Rectangle((x, 0.7), (0.2, 0.2), direction) for x in (1.0, 0.5))
+    assert refused(cells[robot], areas={"tray": half_way, "mat": away}) == (
+        "mat is out of the arm's reach: move it closer to the arm."
+    )
+    Tabletop(cells[robot], (table(),), (), areas={"tray": half_way})
+
+
 def test_a_box_that_has_to_be_moved_and_does_not_fit_the_gripper(cells):
     wide = cube("red_box", 0.5, 0.0, size=(0.2, 0.2, 0.05))
     assert refused(cells["panda"], wide, to_move=["red_box"]) == (

@@ -38,6 +38,14 @@ class Rectangle:
                     return False
         return True
 
+    def nearest(self, point: Point) -> Point:
+        """The point of it that is nearest to a point, itself if it is in it."""
+        axes = np.array([self.direction, (-self.direction[1], self.direction[0])])
+        local = axes @ (np.array(point) - self.center)
+        half = np.array(self.size) / 2
+        x, y = (np.array(self.center) + np.clip(local, -half, half) @ axes).tolist()
+        return x, y
+
     def contains(self, point: Point) -> bool:
         """Whether a point is in it; its edge counts."""
         x, y = self.direction

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from math import dist
 
 import numpy as np
 
@@ -37,8 +38,8 @@ def check_start(
 
     Raises:
         InstanceError: A box is called as a link of the robot is, or starts in another one, in the furniture, in the
-            arm or in the air; the arm stands on an area; a box that has to be moved does not fit the gripper, or is
-            farther away than the arm is long.
+            arm or in the air; the arm stands on an area, or reaches no point of it; a box that has to be moved does
+            not fit the gripper, or is farther away than the arm is long.
         InputError: The arm touches itself or the furniture.
     """
     _check_names(workcell, start)
@@ -93,6 +94,10 @@ def _check_areas(workcell: Workcell, areas: Mapping[str, Rectangle], start: Stat
     for contact in workcell.checker.view(slabs).contacts(np.array(start.configuration)) if areas else ():
         if contact.object in areas:
             raise InstanceError(f"the arm stands on {contact.object}: move it farther from the arm.")
+    disc = workcell.inverse.disc
+    for name, area in areas.items():
+        if dist(area.nearest(disc.center), disc.center) > disc.radius:
+            raise InstanceError(f"{name} is out of the arm's reach: move it closer to the arm.")
 
 
 def _slab(name: str, area: Rectangle) -> Box:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import msgspec
@@ -12,7 +13,7 @@ LONGEST = 40
 """Characters of a wrong value that a sentence quotes."""
 _BYTE = re.compile(r" \(byte (\d+)\)$")
 _PLACED = re.compile(r"(?P<fault>.*?)(?: - at `\$(?P<path>.*)`)?", re.DOTALL)
-_TYPE = re.compile(r"Expected `\w+`, got `\w+`")
+_TYPE = re.compile(r"Expected `[\w |]+`, got `(?P<got>\w+)`")
 _LENGTH = re.compile(r"Expected `array` of length \d+")
 _STEP = re.compile(r"\.(?P<field>\w+)|\[(?P<index>\d+|\.\.\.)\]")
 
@@ -32,23 +33,35 @@ def told(sentence: str, text: str, type_: Any) -> str:
     if fault.startswith("Invalid enum value"):
         valid = ", ".join(map(repr, _valid(inspect.type_info(type_), path)))
         return f"{sentence}; valid: {valid}" if valid else sentence
-    found = _written(text, path)
-    if _TYPE.fullmatch(fault) and isinstance(found, str | int | float):
-        return f"{fault} {_short(msgspec.json.encode(found).decode())}{sentence[len(fault) :]}"
-    if _LENGTH.fullmatch(fault) and isinstance(found, list):
-        return f"{fault}, got {len(found)}{sentence[len(fault) :]}"
-    return sentence
+    return _with_what_is_there(fault, text, path) or sentence
 
 
-def _written(text: str, path: str) -> Any:
-    """What stands at a place; None where the parser's path leaves it open."""
+def _with_what_is_there(fault: str, text: str, path: str) -> str:
+    """The fault with the value that is wrong, or with its length; empty where this cannot be told."""
+    steps = [step["field"] or step["index"] for step in _STEP.finditer(path)]
     try:
-        value = msgspec.json.decode(text)
-        for step in _STEP.finditer(path):
-            value = value[step["field"] or int(step["index"])]
-    except (msgspec.MsgspecError, RecursionError, LookupError, TypeError, ValueError):  # further on it may be no JSON
-        return None
-    return value
+        places = list(_places(msgspec.json.decode(text), steps))
+    except (msgspec.MsgspecError, RecursionError):  # further on it may be no JSON
+        return ""
+    wrong_type, wrong_length = _TYPE.fullmatch(fault), _LENGTH.fullmatch(fault)
+    for place, found in places:
+        where = f" - at `${place}`" if place else ""
+        if wrong_type and type(found).__name__ == wrong_type["got"]:
+            return f"{fault} {_short(msgspec.json.encode(found).decode())}{where}"
+        if wrong_length and isinstance(found, list):
+            return f"{fault}, got {len(found)}{where}"
+    return ""
+
+
+def _places(value: Any, steps: Sequence[str], place: str = "") -> Iterator[tuple[str, Any]]:
+    """What stands where a path leads; several where it goes through any value of an object."""
+    if not steps:
+        yield place, value
+    elif isinstance(value, list) and steps[0].isdigit() and int(steps[0]) < len(value):
+        yield from _places(value[int(steps[0])], steps[1:], f"{place}[{steps[0]}]")
+    elif isinstance(value, dict):
+        for key in value if steps[0] == "..." else {steps[0]} & value.keys():
+            yield from _places(value[key], steps[1:], f"{place}.{key}")
 
 
 def _short(value: str) -> str:

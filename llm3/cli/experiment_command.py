@@ -106,7 +106,7 @@ def _run(
 
     jobs = missing_jobs(experiment, writer.ended, arguments.retry)
     view = ExperimentView(len(experiment), len(experiment) - len(jobs), arguments.quiet)
-    for notice in dict.fromkeys(outlook.notice for outlook in outlooks.values() if outlook.notice):
+    for notice in dict.fromkeys(notice for outlook in outlooks.values() for notice in outlook.notices):
         view.note(notice)
     if len(jobs) < len(experiment):
         view.note(f"{len(experiment) - len(jobs)} of {len(experiment)} runs ended before in {writer.folder}")

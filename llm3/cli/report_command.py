@@ -43,7 +43,7 @@ def run(arguments: Namespace, out: TextIO) -> int:
             _write_runs(registry, record, arguments.quiet)
         report = experiment_report(registry, record, file.parent)
     elif folder.exists() and not (folder / "run.json").exists():
-        hint = " 'llm3 render' draws a plan by itself." if arguments.folder.is_file() else ""
+        hint = f" 'llm3 render' draws '{arguments.folder}' by itself." if arguments.folder.is_file() else ""
         raise InputError(
             f"'{folder}' holds neither run.json nor {EXPERIMENT_FILE}: it is no folder of a run or an experiment.{hint}"
         )

@@ -9,7 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from llm3.errors import InputError
-from llm3.experiments.experiment import Experiment, RunKey
+from llm3.experiments.experiment import Experiment, ProblemFamily, RunKey
 from llm3.experiments.run_line import RunLine
 from llm3.jsonio import loads, read_stated
 from llm3.records.json_lines import read_lines
@@ -52,6 +52,12 @@ class ExperimentRecord:
     """Other versions that some of them were made with."""
     strangers: int = 0
     """Lines of runs that the experiment does not have."""
+
+    @property
+    def begun(self) -> tuple[ProblemFamily, ...]:
+        """The problems of which some run has ended; all of them where none has."""
+        names = {key.problem for key in self.runs}
+        return tuple(p for p in self.experiment.problems if p.name in names) or self.experiment.problems
 
     @property
     def missing(self) -> int:

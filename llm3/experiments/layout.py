@@ -46,6 +46,9 @@ class Layout:
 
     def __post_init__(self) -> None:
         check_measures(self.measures)
+        for what, there in (("measure", self.measures), ("group", self.groups)):
+            if not there:
+                raise ValueError(f"the layout {self.title!r} needs at least one {what}")
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,8 @@ class MethodOutlook:
     """Whether it asks one."""
     motion_calls: int
     """How many it may make; 0 for no limit."""
-    notice: str
-    """What the user should read before, or nothing."""
+    notices: tuple[str, ...]
+    """What the user should read before, of all problems."""
     plugins: Mapping[str, str]
     """Where the plugins that it uses come from."""
 
@@ -42,12 +42,14 @@ def look_ahead(registry: Registry, experiment: Experiment) -> Mapping[str, Metho
     found: dict[str, MethodOutlook] = {}
     for method in experiment.methods:
         plugins: dict[str, str] = {}
+        notices: dict[str, None] = {}
         for problem in experiment.problems:
             config = experiment.config(method, problem, experiment.seeds[0])
             with prepare(registry, config) as prepared:
                 plugins |= prepared.plugins
                 most = prepared.config.max_motion_calls or 0
-                outlook = MethodOutlook(prepared.language_model, most, prepared.notice, FrozenDict(plugins))
+                notices |= dict.fromkeys([prepared.notice] if prepared.notice else [])
+                outlook = MethodOutlook(prepared.language_model, most, tuple(notices), FrozenDict(plugins))
         found[method.name] = outlook
     return found
 

@@ -53,7 +53,9 @@ def _table(written: dict[str, Any], field: str) -> tuple[dict[str, Any], str]:
 
 
 def _name(entry: Mapping[str, Any]) -> str:
-    return str(entry.get("name", entry.get("setting", "")))
+    """A list of settings has the name of their domain."""
+    setting = entry.get("setting", "")
+    return str(entry.get("name", entry.get("domain", "") if isinstance(setting, list) else setting))
 
 
 def _value(text: str) -> Any:

@@ -43,7 +43,8 @@ class ProblemTable:
     """Several stand for as many problems."""
     name: str | None = None
     """What tables call it; the setting, if it is left out."""
-    options: Mapping[str, str] = field(default_factory=FrozenDict)
+    options: Mapping[str, str | int | float] = field(default_factory=FrozenDict)
+    """A number is taken as if it were written in quotes."""
 
 
 @dataclass(frozen=True)
@@ -132,12 +133,13 @@ def _refuse_infinite(value: Any, source: str, where: str = "") -> None:
 def _problems(table: ExperimentTable) -> Iterator[ProblemFamily]:
     domains = {problem.domain for problem in table.problems}
     for problem in table.problems:
+        options = {key: str(value) for key, value in problem.options.items()}
         settings = (problem.setting,) if isinstance(problem.setting, str) else problem.setting
         for setting in settings:
             name = setting if len(domains) == 1 else f"{problem.domain}/{setting}"
             if problem.name is not None:
                 name = problem.name if len(settings) == 1 else f"{problem.name} ({setting})"
-            yield ProblemFamily(name, problem.domain, setting, problem.options)
+            yield ProblemFamily(name, problem.domain, setting, options)
 
 
 def _methods(table: ExperimentTable, source: str) -> Iterator[Method]:

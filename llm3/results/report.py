@@ -28,21 +28,27 @@ def report(summaries: Sequence[Summary], seconds: bool = True) -> Iterator[Secti
         yield Section(title, tuple(_content(summary, seconds)))
     for summary in summaries[1:]:
         here, there = (one_line(str(s.record.folder)) for s in (summary, summaries[0]))
-        between = difference_table("Paired differences", summary.since)
+        met = _problems(summary) & _problems(summaries[0])
+        between = difference_table("Paired differences", [found for found in summary.since if found.problem in met])
         notes = tuple(remarks_between(summary.record, summaries[0].record))
         first = between if summary.since else "They have no method and problem in common."
         yield Section(f"{here} minus {there}", (first, *notes))
+
+
+def _problems(summary: Summary) -> set[str | None]:
+    """The problems that have rows, and None for all of them together."""
+    return {None, *(problem.name for problem in summary.record.begun)}
 
 
 def _content(summary: Summary, seconds: bool) -> Iterator[Table | str]:
     cells = {(cell.method, cell.problem): cell for cell in summary.cells}
     yield from layout_tables(summary.record.experiment, cells, seconds)
     begun = {key.method for key in summary.record.runs}
-    met = {cell.problem for cell in summary.cells if cell.ended}
-    ours = [cell for cell in summary.cells if cell.method in begun and cell.problem in met]
+    shown = _problems(summary)
+    ours = [cell for cell in summary.cells if cell.method in begun and cell.problem in shown]
     yield detail_table(ours, seconds)
     yield from budget_tables(summary.record.experiment.budgets, ours, seconds)
-    differences = [difference for difference in summary.differences if difference.method in begun]
+    differences = [found for found in summary.differences if found.method in begun and found.problem in shown]
     if differences:
         yield difference_table("Paired differences between the methods", differences)
     yield from remarks(summary.record, summary.cells)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from llm3.assembly import RunConfig, choose_instance, open_problem
-from llm3.errors import LLM3Error
+from llm3.errors import LLM3Error, UnknownName
 from llm3.interfaces import Domain, MotionPlanner, PlannerSettings
 from llm3.prompts import Prompt
 from llm3.registry import Registry
@@ -61,11 +61,13 @@ def rows(arguments: argparse.Namespace) -> Iterator[str]:
     slowest, faults = 0.0, []
     yield "| setting | sound witnesses | actions | tokens of the state, at most |"
     yield "|---|---|---|---|"
-    for name in arguments.domain or DOMAINS:
-        domain = registry.domain(name)
-        for setting in domain.settings:
-            if domain.witness(setting, 0) is None or setting not in (arguments.setting or domain.settings):
-                continue
+    domains = [registry.domain(name) for name in arguments.domain or DOMAINS]
+    known = {setting: domain for domain in domains for setting in domain.settings if domain.witness(setting, 0)}
+    for wanted in arguments.setting or ():
+        if wanted not in known:
+            raise UnknownName("setting", wanted, known)
+    for setting, domain in known.items():
+        if setting in (arguments.setting or known):
             found = [looked_at(domain, setting, seed, planner, prompt) for seed in seeds]
             faults += [one.fault for one in found if one.fault]
             slowest = max(slowest, *(one.seconds for one in found))
@@ -86,8 +88,11 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--domain", action="append", choices=DOMAINS)
     parser.add_argument("--setting", action="append")
-    for line in rows(parser.parse_args()):
-        print(line, flush=True)  # noqa: T201  # a script
+    try:
+        for line in rows(parser.parse_args()):
+            print(line, flush=True)  # noqa: T201  # a script
+    except UnknownName as error:
+        parser.error(str(error))
 
 
 if __name__ == "__main__":

@@ -49,7 +49,7 @@ WRONG = [
     ("boxes.0.position", [0.4], "Expected `array` of length 2, got 1 - at `$.boxes[0].position`"),
     ("boxes.0.yaw", None, "Expected `float`, got `null` - at `$.boxes[0].yaw`"),
     ("boxes.0.colour", "red", "unknown field `colour`, expected name, size, position, yaw - at `$.boxes[0]`"),
-    ("boxes.1.name", "red_box", "two boxes are called red_box"),
+    ("boxes.1.name", "red_box", "two things are called red_box"),
     ("boxes.1.position", [0.39, -0.15], "red_box and blue_box start in one another"),
     (
         "boxes.0.size",
@@ -75,7 +75,7 @@ WRONG = [
     (
         "clutter",
         [{"name": "red_box", "size": [0.05, 0.05, 0.05], "position": [0.5, 0.4]}],
-        "two boxes are called red_box",
+        "two things are called red_box",
     ),
     (
         "clutter",

@@ -138,7 +138,7 @@ def test_what_is_wrong_with_the_robot_is_not_called_wrong_with_the_problem():
 @pytest.mark.parametrize(
     ("second", "sentence"),
     [
-        (BoxSpec("red_box", CUBE, (0.7, 0.0)), "two boxes are called red_box"),
+        (BoxSpec("red_box", CUBE, (0.7, 0.0)), "two things are called red_box"),
         (BoxSpec("tan_box", CUBE, (0.54, 0.0)), "red_box and tan_box start in one another"),
     ],
 )

@@ -201,7 +201,14 @@ def test_a_value_that_is_none_of_the_valid_ones_is_named():
 
 UNFIT = {
     "cut off after it": ('{"height": "high", ', "Expected `float`, got `str` - at `$.height`"),
-    "where no path leads": ('{"by_corner": {"left": 1}}', "Expected `object`, got `int` - at `$.by_corner[...]`"),
+    "of some key": (
+        '{"by_corner": {"right": {"name": "a", "size": [1]}, "left": 1}, "height": 1}',
+        "Expected `object`, got `int` 1 - at `$.by_corner.left`",
+    ),
+    "below some key": (
+        '{"by_corner": {"left": {"name": "b", "size": [1]}, "right": {"name": "a", "size": [1, true]}}, "height": 1}',
+        "Expected `float`, got `bool` true - at `$.by_corner.right.size[1]`",
+    ),
     "long": (f'{{"height": "{"a" * 99}"}}', f'Expected `float`, got `str` "{"a" * 39}… - at `$.height`'),
     "of several lines": (r'{"height": "a\nb"}', r'Expected `float`, got `str` "a\nb" - at `$.height`'),
     "a list": ('{"height": [1]}', "Expected `float`, got `array` - at `$.height`"),

@@ -56,6 +56,27 @@ def test_progress_is_told_in_lines_and_ends_with_the_whole(command):
     assert ended.err.splitlines()[-1].endswith(", 0 s left")
 
 
+def test_the_stand_ins_of_all_domains_are_told(command):
+    problems = """
+[[problems]]
+domain = "corridor"
+setting = "default"
+
+[[problems]]
+domain = "tabletop2d"
+setting = "clutter"
+
+[[methods]]
+name = "rules"
+"""
+    Path("two.toml").write_text('name = "two"\nattempts = 1\n' + problems)
+    assert command("experiment two.toml").err.splitlines()[:2] == [
+        "No language model is used: domain 'corridor' has no rule-based stand-in, so the backend 'random' draws the "
+        "parameters.",
+        "No language model is used: the rule-based stand-in of domain 'tabletop2d' writes the replies.",
+    ]
+
+
 def test_a_dry_run_says_what_would_be_done_and_does_nothing(command):
     ended = command("experiment walks.toml --dry-run")
     assert (ended.code, ended.err) == (0, "")

@@ -204,10 +204,26 @@ WRONG = {
     "a column of nothing": (
         {
             "layouts": [
-                {"title": "T", "measures": [], "groups": [{"title": "", "columns": [{"title": "", "problem": "x"}]}]}
+                {
+                    "title": "T",
+                    "measures": ["success"],
+                    "groups": [{"title": "", "columns": [{"title": "", "problem": "x"}]}],
+                }
             ]
         },
         "walks.toml: layout 'T' has a column of 'x', which is none of the problems: default",
+    ),
+    "a layout without measures": (
+        {"layouts": [{"title": "T", "measures": [], "groups": []}]},
+        "walks.toml: the layout 'T' needs at least one measure - at `$.layouts[0]`",
+    ),
+    "a layout without groups": (
+        {"layouts": [{"title": "T", "measures": ["success"], "groups": []}]},
+        "walks.toml: the layout 'T' needs at least one group - at `$.layouts[0]`",
+    ),
+    "an option that is neither text nor number": (
+        {"problems": [{"domain": "corridor", "setting": "default", "options": {"walls": True}}]},
+        "walks.toml: Expected `int | float | str`, got `bool` true - at `$.problems[0].options.walls`",
     ),
     "a value of another type": (
         {"methods": [{"name": "a", "trace_size": "five"}]},
@@ -256,6 +272,12 @@ def test_no_file_can_do_more_harm_than_an_error(value):
             experiment_of({**CORRIDOR, **value}, "walks.toml")
 
 
+def test_numbers_among_the_options_of_a_domain_need_no_quotes():
+    options = {"walls": 0.05, "seats": 3, "robot": "iiwa"}
+    made = experiment(problems=[{"domain": "corridor", "setting": "default", "options": options}])
+    assert made.problems[0].options == {"walls": "0.05", "seats": "3", "robot": "iiwa"}
+
+
 WRONG_FIELDS = {
     "methods.radnom.llm": "unknown method 'radnom'; did you mean 'random'? Known: one random try, random.",
     "title.x": "--set 'title.x': 'title' is a value and has no fields.",
@@ -292,6 +314,17 @@ class TestFieldsOnTheCommandLine:
         for name in path:
             found = found[name]
         assert found == expected
+
+    def test_a_problem_with_several_settings_goes_by_the_name_of_its_domain(self):
+        several = {"domain": "boxpack", "setting": ["dense-6", "dense-8"]}
+        one = {"domain": "blocks", "setting": "blocks-8"}
+        changed = overridden({"problems": [one, several]}, [("problems.boxpack.options.walls", "0.03")])
+        assert changed["problems"] == [one, {**several, "options": {"walls": 0.03}}]
+        with pytest.raises(LLM3Error) as caught:
+            overridden({"problems": [one, several]}, [("problems.boxpack/dense-6.name", "x")])
+        assert (
+            str(caught.value) == "unknown problem 'boxpack/dense-6'; did you mean 'boxpack'? Known: blocks-8, boxpack."
+        )
 
     def test_the_file_itself_is_left_as_it_is(self):
         before = dumps(CORRIDOR)

@@ -75,7 +75,7 @@ def test_a_plan_without_a_record_is_no_run_and_the_line_says_what_draws_it(run, 
     (cwd / "alone" / "plan.json").write_bytes((cwd / "here" / "plan.json").read_bytes())
     ended = command("report alone/plan.json")
     reason = "'alone' holds neither run.json nor experiment.json: it is no folder of a run or an experiment."
-    assert (ended.code, ended.err) == (3, f"llm3: error: {reason} 'llm3 render' draws a plan by itself.\n")
+    assert (ended.code, ended.err) == (3, f"llm3: error: {reason} 'llm3 render' draws 'alone/plan.json' by itself.\n")
 
 
 def test_a_damaged_record_is_one_line_and_loses_no_earlier_report(run, command, cwd):

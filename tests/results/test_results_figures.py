@@ -8,6 +8,7 @@ import pytest
 from experiment_folders import budgets, experiment, run, table1, table2, write
 
 from llm3.experiments import Experiment, Method, ProblemFamily, RunKey, read_experiment_folder, record_folder
+from llm3.results.figures.layouts import colors_of
 
 PNG = b"\x89PNG\r\n\x1a\n"
 ALWAYS = {"success-by-motion-calls.png", "success-by-seconds.png", "failures-by-kind.png"}
@@ -75,6 +76,22 @@ def test_the_same_results_give_the_same_bytes(command, cwd):
     assert figures(Path("one")) == ALL - {"success-by-seconds.png"}
     for path in Path("one").iterdir():
         assert path.read_bytes() == (Path("two") / path.name).read_bytes()
+
+
+def test_problems_without_runs_have_no_panels(command, cwd):
+    for folder, problems in (("one", ("hard-small",)), ("three", ("easy-small", "hard-small", "hard-large"))):
+        write(cwd / folder, experiment(problems=problems, seeds=1), [run(), run("other")])
+        assert command("results", folder, "--plot", f"{folder}-drawn").code == 0
+    assert figures(Path("three-drawn")) == ALL
+    for name in ALL:
+        assert (Path("three-drawn") / name).read_bytes() == (Path("one-drawn") / name).read_bytes()
+
+
+def test_objects_have_the_colours_that_their_names_begin_with():
+    found = colors_of(["carrot", "red_box", "tan_box", "white_box"])
+    assert (found["red_box"], found["tan_box"]) == ("red", "tan")
+    assert len(set(found.values())) == 4
+    assert "white" not in found.values()
 
 
 def test_earlier_figures_are_replaced(command, cwd):

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from llm3.experiments import Experiment, RunLine
+from llm3.experiments import Experiment, ExperimentRecord, RunLine
 from llm3.results.cells import runs_of
 from llm3.results.figures.canvas import SMALL, color, dash, grid, label, panels, save
 from llm3.results.measures import MACHINE, VALUES, is_attempt
@@ -32,14 +32,14 @@ def draw_budgets(summary: Summary, folder: Path, seconds: bool) -> Iterator[Path
         path = folder / f"success-by-{measure.replace('_', '-')}.png"
         if any(is_spent(runs, measure) for runs in attempts):
             drawn = [runs if is_spent(runs, measure) else [] for runs in attempts]
-            yield _draw(record.experiment, drawn, measure, path)
+            yield _draw(record, drawn, measure, path)
         else:
             yield f"no method of '{record.folder}' spends {unit} that are known: {path.name} is not drawn."
 
 
-def _draw(experiment: Experiment, attempts: Sequence[Sequence[RunLine]], measure: str, path: Path) -> Path:
+def _draw(record: ExperimentRecord, attempts: Sequence[Sequence[RunLine]], measure: str, path: Path) -> Path:
     """The attempts are those of each method; a method without any has no curve."""
-    problems = experiment.problems
+    experiment, problems = record.experiment, record.begun
     rows, columns = grid(len(problems))
     figure, axes = panels(rows, columns)
     flat = [axis for row in axes for axis in row]

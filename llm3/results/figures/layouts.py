@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 
 MARGIN = 0.02
 """Metres around what is shown."""
+LIGHT = 0.9
+"""A colour of which no part is less than this does not show on paper."""
+UNKNOWN = "0.5"
+"""The colour of what was not there at the start."""
 
 
 def draw_layouts(summary: Summary, folder: Path, registry: Registry) -> Iterator[Path | str]:
@@ -59,22 +63,37 @@ def _recorded(record: ExperimentRecord) -> Mapping[RunKey, Path]:
 def _figure(record: ExperimentRecord, found: Mapping[RunKey, Tried]) -> Figure:
     from matplotlib.patches import Patch
 
-    problems, methods = record.experiment.problems, record.experiment.methods
+    problems = [problem for problem in record.experiment.problems if problem.name in {key.problem for key in found}]
+    methods = [method for method in record.experiment.methods if method.name in {key.method for key in found}]
     seed = next(iter(found)).seed
     figure, axes = panels(len(problems), len(methods), 1.9, 1.9)
     names = sorted({shape.name for tried in found.values() for shape in tried.start if not shape.fixed})
+    colors = colors_of(names)
     for problem, row in zip(problems, axes, strict=True):
         for method, axis in zip(methods, row, strict=True):
             tried = found.get(RunKey(method.name, problem.name, seed))
-            _panel(axis, tried, names)
+            _panel(axis, tried, colors)
             ending = "no record" if tried is None else f"{len(tried.attempts)} tried{', solved' * tried.solved}"
             axis.set_title(f"{label(problem.name)}, {label(method.name)}\n{ending}", fontsize=SMALL)
-    handles = [Patch(color=_color(name, names), label=label(name)) for name in names]
+    handles = [Patch(color=colors[name], label=label(name)) for name in names]
     figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=SMALL, frameon=False)
     return figure
 
 
-def _panel(axis: Axes, tried: Tried | None, names: Sequence[str]) -> None:
+def colors_of(names: Sequence[str]) -> Mapping[str, str]:
+    """The colours of objects: that with which a name begins, as of ``red_box``, or else one of the palette.
+
+    What is as light as the paper gets one of the palette, too.
+    """
+    from matplotlib.colors import CSS4_COLORS, to_rgb
+
+    own = {name: name.partition("_")[0] for name in names}
+    own = {name: first for name, first in own.items() if first in CSS4_COLORS and min(to_rgb(first)) < LIGHT}
+    rest = [name for name in names if name not in own]
+    return {**own, **{name: color(index) for index, name in enumerate(rest)}}
+
+
+def _panel(axis: Axes, tried: Tried | None, colors: Mapping[str, str]) -> None:
     if tried is None:
         axis.set_axis_off()
         return
@@ -82,9 +101,9 @@ def _panel(axis: Axes, tried: Tried | None, names: Sequence[str]) -> None:
     for shape in tried.start:
         _outline(axis, shape, "0.4", 1.0 if shape.fixed else 0.6, "-" if shape.fixed else ":")
     shapes = list(dict.fromkeys(shape for attempt in tried.attempts for shape in attempt))  # each place once
-    _fill(axis, shapes, names, max(0.06, min(0.5, 1.5 * len(names) / max(1, len(shapes)))))
+    _fill(axis, shapes, colors, max(0.06, min(0.5, 1.5 * len(colors) / max(1, len(shapes)))))
     for shape in tried.attempts[-1] if tried.attempts else ():
-        _outline(axis, shape, _color(shape.name, names), 1.0, "-")
+        _outline(axis, shape, colors.get(shape.name, UNKNOWN), 1.0, "-")
     _look_at(axis, [*(shape for shape in tried.start if shape.fixed), *shapes])
     axis.set_xlabel("x / m", fontsize=SMALL)
     axis.set_ylabel("y / m", fontsize=SMALL)
@@ -100,15 +119,11 @@ def _look_at(axis: Axes, shapes: Sequence[Shape]) -> None:
             set_limits(min(values) - MARGIN, max(values) + MARGIN)
 
 
-def _fill(axis: Axes, shapes: Sequence[Shape], names: Sequence[str], alpha: float) -> None:
+def _fill(axis: Axes, shapes: Sequence[Shape], colors: Mapping[str, str], alpha: float) -> None:
     from matplotlib.collections import PolyCollection
 
-    colors = [_color(shape.name, names) for shape in shapes]
-    axis.add_collection(PolyCollection([s.corners for s in shapes], facecolors=colors, alpha=alpha, linewidths=0))
-
-
-def _color(name: str, names: Sequence[str]) -> str:
-    return color(names.index(name) if name in names else len(names))
+    faces = [colors.get(shape.name, UNKNOWN) for shape in shapes]
+    axis.add_collection(PolyCollection([s.corners for s in shapes], facecolors=faces, alpha=alpha, linewidths=0))
 
 
 def _outline(axis: Axes, shape: Shape, color: str, width: float, style: str) -> None:

@@ -74,7 +74,7 @@ def check_boxes(boxes: Sequence[BoxSpec]) -> None:
     for index, box in enumerate(boxes):
         for other in boxes[:index]:
             if box.name == other.name:
-                raise ValueError(f"two boxes are called {box.name}")
+                raise ValueError(f"two things are called {box.name}")
             if box.footprint.overlaps(other.footprint):
                 raise ValueError(f"{other.name} and {box.name} start in one another")
 

@@ -9,7 +9,7 @@ from typing import Literal
 from llm3.experiments import MEASURES, ExperimentRecord, RunKey, RunLine
 from llm3.results.estimates import Estimate
 from llm3.results.means import mean_estimates
-from llm3.results.measures import MACHINE, is_attempt, values
+from llm3.results.measures import MACHINE, is_attempt, is_known, values
 from llm3.results.proportions import share_estimate
 from llm3.results.within import is_spent, shares_within
 from llm3.types import FrozenDict
@@ -29,7 +29,7 @@ class Cell:
     """How many runs the experiment asks for."""
     ended: tuple[RunLine, ...]
     estimates: Mapping[tuple[str, Over], Estimate]
-    """By measure; without runs there are none, and none over solved runs where none is solved."""
+    """By measure; without runs there are none, none over solved runs where none is solved, and none that is not known."""
     within: Mapping[tuple[str, int], Estimate] = field(default_factory=FrozenDict)
     """The share of runs that are solved within each budget of the experiment, by measure; without runs there are none,
     and none where such a budget means nothing to the method."""
@@ -84,9 +84,9 @@ def _estimates(ended: Sequence[RunLine], measures: Sequence[str]) -> dict[tuple[
     found: dict[tuple[str, Over], Estimate] = {}
     if attempts:
         found["success", "all"] = share_estimate(len(solved), len(attempts))
-    counted = [measure for measure in measures if measure != "success"]
     over: Over
     for over, runs in (("all", attempts), ("solved", solved)):
+        counted = [measure for measure in measures if measure != "success" and is_known(runs, measure)]
         if runs:
             estimates = mean_estimates(values(runs, counted))
             found.update({(measure, over): e for measure, e in zip(counted, estimates, strict=True)})

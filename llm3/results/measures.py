@@ -33,6 +33,12 @@ def without_model(runs: Iterable[RunLine]) -> bool:
     return not any(run.language_model for run in runs)
 
 
+def is_known(runs: Iterable[RunLine], measure: str) -> bool:
+    """Whether a measure is known of all of them: not every server counts its tokens."""
+    uncounted = (run.language_model and run.stats.llm_calls and not run.stats.tokens for run in runs)
+    return measure != "tokens" or not any(uncounted)
+
+
 def values(runs: Iterable[RunLine], measures: Iterable[str]) -> NDArray[np.float64]:
     """(runs, measures)."""
     wanted = [VALUES[measure] for measure in measures]

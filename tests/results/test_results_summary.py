@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from llm3.experiments import ExperimentRecord, ProblemFamily, read_experiment_folder
 from llm3.results import Estimate, mean_estimate, paired_share_difference, share_estimate, sign_flip_test, summarize
-from llm3.types import FrozenDict
+from llm3.types import FrozenDict, Stats
 
 METHODS, PROBLEMS, SEEDS = ("one", "other"), ("hard-small", "easy-small"), 7
 STATUSES = ("solved", "not solved", "error", "crashed")
@@ -57,6 +57,17 @@ def test_the_figures_of_a_cell():
     assert found.estimates["tokens", "solved"].mean == 1100 * 3.5
     assert found.estimates["seconds", "all"].mean == 47 / 8
     assert not cell(summary, "other", "hard-small").estimates
+
+
+def test_tokens_that_a_server_does_not_count_are_not_known_and_no_zero():
+    uncounted = replace(run(seed=1, calls=4, status="not solved"), stats=Stats(llm_calls=4, motion_calls=9))
+    (summary,) = summarize([record([run(calls=3), uncounted], problems=PROBLEMS[:1])])
+    found = cell(summary, "one", "hard-small").estimates
+    assert ("tokens", "all") not in found
+    assert found["tokens", "solved"].mean == 1100 * 3
+    stood_in = replace(uncounted, language_model=False)
+    (summary,) = summarize([record([stood_in], problems=PROBLEMS[:1])])
+    assert cell(summary, "one", "hard-small").estimates["tokens", "all"].mean == 0.0
 
 
 def test_a_search_makes_no_model_calls_but_has_iterations():

@@ -73,8 +73,7 @@ def test_the_towers_of_a_rebuild_are_those_of_the_code():
     ]
 
 
-def test_every_large_setting_is_measured():
-    assert table(PAGE, "In the larger settings").names == LARGE
+def test_the_lengths_of_the_known_solutions():
     known = [len(Blocks().witness(setting, 0)) for setting in LARGE if setting.startswith("rebuild")]
     assert "The motions of the known solutions are {}, {} and {}.".format(*known) in FLAT
 

@@ -47,7 +47,7 @@ class BoxpackEnv(TabletopEnv):
     @property
     def task(self) -> str:
         """The task in prose."""
-        return task_text(self._instance, self.tabletop.workcell.gripper)
+        return task_text(self._instance, self.tabletop.workcell.model.description)
 
     @property
     def schemas(self) -> tuple[ActionSchema, ...]:
@@ -56,7 +56,7 @@ class BoxpackEnv(TabletopEnv):
 
     def describe(self, state: State) -> tuple[Entity, ...]:
         """The basket, the boxes and what is in the way, to the millimetre."""
-        return describe(self._instance, self.tabletop.workcell.gripper, state)
+        return describe(self._instance, self.tabletop.workcell.model.description, state)
 
     def prepare(self, state: State, action: Action, rng: np.random.Generator) -> MotionProblem | Failure:
         """A path to above the box or the place, from which the hand can come down and get away again."""

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from llm3.types import Entity, State
 from llm3_boxpack.instance import TRAY_THICKNESS, WALLS, BoxpackInstance, BoxSpec
-from llm3_bullet.robot import Gripper, ParallelGripper
+from llm3_bullet.robot import Gripper, ParallelGripper, RobotDescription
 from llm3_bullet.tabletop.grasps import OPENING_MARGIN, hand_heights
 from llm3_bullet.tabletop.wording import box_entity, gripper_text
 
 
-def task_text(instance: BoxpackInstance, gripper: Gripper) -> str:
+def task_text(instance: BoxpackInstance, robot: RobotDescription) -> str:
     """The task in prose; lengths are those of the robot and the problem in use."""
     height = instance.basket.walls
     walls = f" It has walls {height:g} m high: {', '.join(WALLS)}." if height else " It has no walls."
@@ -21,19 +21,24 @@ def task_text(instance: BoxpackInstance, gripper: Gripper) -> str:
         f"The basket is a flat tray whose sides are parallel to x and y.{walls}\n"
         "The goal: every box lies in the basket with its whole footprint, and the gripper is empty. Boxes must not "
         f"be put on top of one another.{others}\n"
-        f"{gripper_text(gripper)}{_heights_text(instance, gripper)}"
+        f"{gripper_text(robot.gripper)}{_heights_text(instance, robot)}"
     )
 
 
-def _heights_text(instance: BoxpackInstance, gripper: Gripper) -> str:
-    """What the hand passes over, where it matters and is known."""
-    if not _tells_heights(instance, gripper):
+def _heights_text(instance: BoxpackInstance, robot: RobotDescription) -> str:
+    """What the hand passes over, and how far the arm reaches, where it matters and is known."""
+    if not _tells_heights(instance, robot.gripper):
         return ""
+    reach = (
+        " Of the arm is told how far from (0, 0) the middle of a box can be, at least and at most, so that the arm "
+        "surely reaches it, however it is turned."
+    )
     return (
         "\nThe hand passes over what is lower than it. Of each box is told how high the fingertips and the palm are "
         "above what it stands on when the gripper takes it or lets go of it. What is higher than the fingertips must "
         "not be where a finger is: beside the middle of each of the two faces. What is higher than the palm must not "
         "be below it: its middle is above that of the box, and it is longest from finger to finger."
+        f"{reach if robot.reach_from_above else ''}"
     )
 
 
@@ -42,11 +47,14 @@ def _tells_heights(instance: BoxpackInstance, gripper: Gripper) -> bool:
     return bool(known and (instance.basket.walls or instance.clutter))
 
 
-def describe(instance: BoxpackInstance, gripper: Gripper, state: State) -> tuple[Entity, ...]:
-    """The basket, the boxes and what is in the way, to the millimetre; and the hand, where its height matters."""
+def describe(instance: BoxpackInstance, robot: RobotDescription, state: State) -> tuple[Entity, ...]:
+    """The basket, the boxes and what is in the way, to the millimetre; and hand and arm, where heights matter."""
+    gripper = robot.gripper
     things = tuple(_entity(instance, gripper, state, thing) for thing in instance.things)
-    hand = (_hand(gripper),) if _tells_heights(instance, gripper) and isinstance(gripper, ParallelGripper) else ()
-    return (_tray(instance), *things, *hand)
+    if not _tells_heights(instance, gripper) or not isinstance(gripper, ParallelGripper):
+        return (_tray(instance), *things)
+    arm = (Entity("arm", {"surely reaches": robot.reach_from_above}),) if robot.reach_from_above else ()
+    return (_tray(instance), *things, _hand(gripper), *arm)
 
 
 def _tray(instance: BoxpackInstance) -> Entity:

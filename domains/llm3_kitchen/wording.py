@@ -7,7 +7,8 @@ from llm3_bullet.robot import Gripper
 from llm3_bullet.tabletop.box_spec import BoxSpec
 from llm3_bullet.tabletop.wording import box_entity, gripper_text, hand_text
 from llm3_kitchen.facts import HEATED, WASHED, is_true
-from llm3_kitchen.instance import FoodSpec, KitchenInstance, PlaceSpec
+from llm3_kitchen.instance import RIM_THICKNESS, FoodSpec, KitchenInstance, PlaceSpec
+from llm3_kitchen.layout import PLATE_HEIGHT, RIM_HEIGHT
 from llm3_kitchen.whereabouts import place_of
 
 
@@ -18,7 +19,9 @@ def task_text(gripper: Gripper) -> str:
         "its left and z points up. The table's surface is at z = 0. Lengths are in metres, angles in radians.\n"
         "The table has places, each of a kind, such as a sink: rectangles whose sides are parallel to x and y. What is "
         "put down must stand in a place with its whole footprint, and not on something else. Sink and stove are "
-        "small, so clear them after use.\n"
+        "small, so clear them after use. Around a sink is a rim "
+        f"{RIM_HEIGHT:g} m high and {RIM_THICKNESS:g} m thick, which the fingers must not touch; a sink's floor is the "
+        f"table. A stove is a plate {PLATE_HEIGHT:g} m high.\n"
         "The goal: every food is washed and heated as far as the state asks for it, and then stands in a serving "
         "place. Food is washed in a sink and heated on a stove, and must be washed before it is heated. Clutter is "
         "only in the way: it may be moved to any place.\n"

@@ -29,7 +29,8 @@ class Cell:
     """How many runs the experiment asks for."""
     ended: tuple[RunLine, ...]
     estimates: Mapping[tuple[str, Over], Estimate]
-    """By measure; without runs there are none, none over solved runs where none is solved, none of what is not known."""
+    """By measure. There are none without runs, none over solved runs where none is solved, and none of what is not
+    known."""
     within: Mapping[tuple[str, int], Estimate] = field(default_factory=FrozenDict)
     """The share of runs that are solved within each budget of the experiment, by measure; without runs there are none,
     and none where such a budget means nothing to the method."""

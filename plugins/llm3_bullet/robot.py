@@ -132,6 +132,10 @@ class RobotDescription:
     """Pairs of links that always touch and are never counted as a collision."""
     mounted_links: tuple[str, ...] = ()
     """Links that stand on the table and may touch what they stand on."""
+    reach_from_above: tuple[float, float] | None = None
+    """Between which distances from the base, in metres, what stands on a table at the base's height is surely within
+    reach of a tool that points straight down, however it is turned; None if it is not known. It is only told to
+    models."""
     source: str = ""
     """Where the figures come from."""
 
@@ -144,6 +148,11 @@ class RobotDescription:
         for joint, limits in self.joint_limits.items():
             if not -_LARGEST <= limits[0] < limits[1] <= _LARGEST:
                 raise ValueError(f"joint_limits of {joint!r} must be a lower and a higher number, not {list(limits)}")
+        if self.reach_from_above and not 0 <= self.reach_from_above[0] < self.reach_from_above[1] <= _LARGEST:
+            raise ValueError(
+                "reach_from_above must be a shorter and a longer distance, in metres, not "
+                f"{list(self.reach_from_above)}"
+            )
         if not self.urdf:
             raise ValueError("urdf must name a file")
         _near("the base", self.base)

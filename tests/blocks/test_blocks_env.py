@@ -47,7 +47,7 @@ def test_the_task(env):
         "block that it holds, so a tower that is higher than this block must not be close beside it.\n"
         "The gripper takes a block from above between two fingers, on two opposite side faces no more than 0.072 m "
         "apart: the closer pair, or for a square block the pair along its own x direction (that of theta), and the "
-        "other one only if the first is blocked. The fingers need about 0.034 m of free space beside these two faces, "
+        "other one only if the first is blocked. The fingers need about 0.030 m of free space beside these two faces, "
         "when they take a block and when they let go of it. Then the hand moves straight up."
     )
 

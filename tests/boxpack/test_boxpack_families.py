@@ -21,8 +21,10 @@ from llm3.types import Action, Failure, FailureKind, State
 from llm3.witness import witness
 from llm3_boxpack.domain import BoxPack
 from llm3_boxpack.families import FAMILIES, drafted
+from llm3_boxpack.families.hand import Hand
 from llm3_boxpack.instance import BoxpackInstance, BoxSpec
 from llm3_boxpack.paper_settings import SETTINGS as OF_THE_PAPER
+from llm3_bullet.robots import panda
 from llm3_bullet.tabletop.rectangles import Rectangle
 
 MADE = BoxPack.settings[9:]
@@ -258,6 +260,40 @@ def test_some_boxes_fit_where_they_belong_and_the_hand_does_not_once_all_others_
             late += [answer] if isinstance(answer, Failure) else []
         assert late
         assert all(map(only_the_hand, late)), seed
+
+
+def refusals(make, setting: str, seed: int) -> tuple[list[object], list[object]]:
+    """What the robot's world answers where the hand is said to have no room.
+
+    First for picks at the start, then for the solution's places when all else is there.
+    """
+    family, _, count = setting.partition("-")
+    draft, hand = drafted(family, int(count), seed), Hand.of(panda().gripper)
+    env = make(draft.instance, None)
+    picks = [env.prepare(env.reset(), pick(name), np.random.default_rng(0)) for name in draft.blocked_picks(hand)]
+    where, put_down = places(draft.solution), []
+    for name in draft.blocked_places(hand):
+        (spec,) = [spec for spec in draft.instance.boxes if spec.name == name]
+        alone = make(replace(draft.instance, boxes=(spec,), clutter=()), None)
+        held = after(alone, alone.reset(), pick(name))
+        others = {other: pose for other, pose in env.reset().poses.items() if other != name}
+        full = with_all_else_packed(draft.instance, replace(held, poses=others), draft.solution)
+        put_down.append(env.prepare(full, where[name], np.random.default_rng(0)))
+    return picks, put_down
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1, 1000, 1001])
+@pytest.mark.parametrize("setting", MADE)
+def test_what_is_impossible_for_the_hand_and_not_for_the_box_is_refused_by_the_robots_world(make, setting, seed):
+    picks, put_down = refusals(make, setting, seed)
+    assert picks or put_down
+    assert all(isinstance(answer, Failure) and only_the_hand(answer) for answer in (*picks, *put_down))
+    family, _, count = setting.partition("-")
+    if family == "lanes":
+        assert len(picks) >= int(count) / 2
+    if family == "clutter":
+        assert picks
 
 
 @pytest.mark.parametrize("setting", MADE)

@@ -26,7 +26,7 @@ The goal: every box lies in the basket with its whole footprint, and the gripper
 top of one another.
 The gripper takes a box from above between two fingers, on two opposite side faces no more than 0.072 m apart: the \
 closer pair, or for a square box the pair along its own x direction (that of theta), and the other one only if the \
-first is blocked. The fingers need about 0.034 m of free space beside these two faces, when they take a box and when \
+first is blocked. The fingers need about 0.030 m of free space beside these two faces, when they take a box and when \
 they let go of it. Then the hand moves straight up."""
 
 
@@ -39,7 +39,23 @@ HEIGHTS = """
 The hand passes over what is lower than it. Of each box is told how high the fingertips and the palm are above what \
 it stands on when the gripper takes it or lets go of it. What is higher than the fingertips must not be where a \
 finger is: beside the middle of each of the two faces. What is higher than the palm must not be below it: its middle \
-is above that of the box, and it is longest from finger to finger."""
+is above that of the box, and it is longest from finger to finger. Of the arm is told how far from (0, 0) the middle \
+of a box can be, at least and at most, so that the arm surely reaches it, however it is turned."""
+
+
+def with_fingers(**changes):
+    """The Panda with another hand."""
+    return replace(panda(), fingers=replace(panda().fingers, **changes))
+
+
+def test_an_arm_of_unknown_reach_is_not_told_of(make):
+    known = task_text(TWO.with_walls(0.05), panda())
+    unknown = task_text(TWO.with_walls(0.05), replace(panda(), reach_from_above=None))
+    assert known.startswith(unknown)
+    assert known.removeprefix(unknown) == (
+        " Of the arm is told how far from (0, 0) the middle of a box can be, at least and at most, so that the arm "
+        "surely reaches it, however it is turned."
+    )
 
 
 def test_the_task_with_walls_tells_of_the_height_of_the_hand(make):
@@ -49,7 +65,7 @@ def test_the_task_with_walls_tells_of_the_height_of_the_hand(make):
 
 def test_the_task_with_walls_for_a_hand_of_unknown_size():
     walled = TASK.replace("It has no walls.", WITH_WALLS)
-    assert task_text(TWO.with_walls(0.05), replace(panda().fingers, finger_width=None)) == walled
+    assert task_text(TWO.with_walls(0.05), with_fingers(finger_width=None)) == walled
 
 
 CLUTTERED = replace(TWO, clutter=(ClutterSpec("glue_can", (0.04, 0.06, 0.026), (0.65, 0.0)),))
@@ -65,7 +81,7 @@ def test_the_task_with_things_in_the_way(make):
 
 def test_the_state_with_walls_and_things_in_the_way_tells_all_of_the_hand(make):
     env = make(CLUTTERED, 0.05)
-    tray, red, _, can, hand = env.describe(env.reset())
+    tray, red, _, can, hand, arm = env.describe(env.reset())
     assert tray.properties["wall height"] == 0.05
     assert red == Entity(
         "red_box",
@@ -84,17 +100,18 @@ def test_the_state_with_walls_and_things_in_the_way_tells_all_of_the_hand(make):
         "hand",
         {"fingers reach beyond a face": 0.03, "finger width": 0.021, "palm length": 0.208, "palm width": 0.063},
     )
+    assert arm == Entity("arm", {"surely reaches": (0.43, 0.77)})
 
 
 def test_the_figures_are_those_of_the_robot_in_use():
-    text = task_text(TWO, replace(panda().fingers, max_opening=0.1, finger_reach=0.05))
+    text = task_text(TWO, with_fingers(max_opening=0.1, finger_reach=0.05))
     assert "no more than 0.092 m apart" in text
-    assert "about 0.058 m of free space" in text
+    assert "about 0.054 m of free space" in text
 
 
 def test_with_a_suction_cup_the_task_says_how_that_takes_a_box():
     common = TASK[: TASK.index("The gripper takes")]
-    assert task_text(TWO, iiwa().gripper) == (
+    assert task_text(TWO, iiwa()) == (
         f"{common}The gripper is a suction cup, which takes a box from above by the middle of its upper face; the face "
         "must be at least 0.028 m wide. It needs no free space beside the box. When it has taken a box, or let go of "
         "it, it moves straight up."
@@ -163,7 +180,7 @@ def test_all_that_a_solution_needs_can_be_read(domain, make):
         assert entities[spec.name]["size"] == spec.size
         assert entities[spec.name]["theta"] == spec.yaw
     room = float(re.search(r"about ([\d.]+) m of free space", env.task).group(1))
-    assert room == pytest.approx(panda().gripper.finger_reach + OPENING_MARGIN, abs=0.0005)
+    assert room == pytest.approx(panda().gripper.finger_reach + OPENING_MARGIN / 2, abs=0.0005)
 
 
 def test_the_actions_have_the_ranges_of_the_paper():

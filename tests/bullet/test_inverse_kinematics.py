@@ -191,3 +191,12 @@ def test_the_rotation_error_is_the_rotation_vector(seed, angle):
     assert np.linalg.norm(error[3:]) == pytest.approx(angle, abs=1e-7)
     if angle < np.pi - 1e-6:
         np.testing.assert_allclose(error[3:], angle * axis, atol=1e-6)
+
+
+def test_the_panda_reaches_what_it_is_said_to_reach_from_above(inverse):
+    draw = rng()
+    low, high = panda().reach_from_above
+    azimuth, yaw = draw.uniform(-np.pi / 2, np.pi / 2, 300), draw.uniform(-np.pi, np.pi, 300)
+    radius = draw.choice([low, (low + high) / 2, high], 300)
+    poses = top_down(radius * np.cos(azimuth), radius * np.sin(azimuth), draw.uniform(0.01, 0.1, 300), yaw)
+    assert all(result.reached for result in inverse.solve_many(poses, draw))

@@ -2,6 +2,8 @@
 
 Lengths in millimetres. The hand comes straight down and goes straight up again, so it takes a space above a height:
 between the fingers' tips and the palm that of two fingers, and from the palm on all that is below the flange.
+
+What is around the hand proves that there is room for it, and what is inside of it that there is none.
 """
 
 from __future__ import annotations
@@ -21,6 +23,13 @@ GAP = 3.0
 """Between two boxes, and between a box and a wall."""
 MARGIN = 2.0
 """More than the hand's own size: PyBullet's meshes are 1 mm thicker than drawn, and no hand is quite symmetrical."""
+
+FINGER_CORE = ((4.0, 14.0, 12.0), (22.0, 20.0, 16.0))
+"""Blocks inside of a Panda's finger: how far above its tip they begin, how far they reach from its inner face, and how
+wide they are."""
+PALM_CORE = (4.0, 186.0, 30.0)
+"""A block inside of a Panda's palm: how far above its lower face it begins, and its size along the line from finger to
+finger, and across."""
 
 Mask = NDArray[np.bool_]
 
@@ -42,7 +51,7 @@ class Hand:
     """What a gripper needs beside a box to take it, or to let go of it."""
 
     finger_reach: float
-    """How far a finger stands out beyond the box when it is open around it."""
+    """How far a finger stands out beyond the box then."""
     finger_width: float
     palm_size: tuple[float, float]
     """Along the line from finger to finger, and across."""
@@ -50,6 +59,8 @@ class Hand:
     """How high the fingers' tips and the palm are above what a box of some height stands on."""
     widest: float = inf
     """What fits between the fingers."""
+    opening: float = 1000 * OPENING_MARGIN / 2
+    """How far a finger's inner face is from the box when it is open around it."""
 
     @staticmethod
     def of(gripper: Gripper) -> Hand:
@@ -79,31 +90,49 @@ class Hand:
         """What a finger needs beside a box, in whole millimetres."""
         return float(ceil(self.finger_reach + MARGIN))
 
-    def spaces(self, box: Standing) -> tuple[Space, ...]:
-        """Fingers and palm: across the two long sides, which are closer together."""
+    def around(self, box: Standing) -> tuple[Space, ...]:
+        """Blocks around fingers and palm; the fingers are at the two long sides of a box, which are closer together."""
         along, across = (length + 2 * MARGIN for length in self.palm_size)
         width, reach = self.finger_width + 2 * MARGIN, self.finger_reach + MARGIN
         tips, palm = (box.bottom + height - MARGIN for height in self.heights(box.height))
-        beside = (min(box.dx, box.dy) + reach) / 2
-        parts = ((-beside, reach, width, tips), (beside, reach, width, tips), (0.0, along, across, palm))
-        if box.is_along_y:
-            return tuple(Space(offset, 0.0, length, side, low) for offset, length, side, low in parts)
-        return tuple(Space(0.0, offset, side, length, low) for offset, length, side, low in parts)
+        return (*_beside(box, 0.0, reach, width, tips), _across(box, 0.0, along, across, palm))
+
+    def inside(self, box: Standing) -> tuple[Space, ...]:
+        """Blocks inside of fingers and palm."""
+        tips, palm = (box.bottom + height for height in self.heights(box.height))
+        above, along, across = PALM_CORE
+        fingers = [
+            space
+            for higher, reach, width in FINGER_CORE
+            for space in _beside(box, self.opening, self.opening + reach, width, tips + higher)
+        ]
+        return (*fingers, _across(box, 0.0, along, across, palm + above))
 
     def in_the_way(self, box: Standing, others: Iterable[Standing]) -> tuple[str, ...]:
-        """What the hand would touch there; what the box itself would touch does not count."""
+        """What the hand would certainly touch there; what the box itself would touch does not count."""
         rows = tuple(others)
-        (touched,) = _touched(self.spaces(box), np.array([[box.x, box.y]]), rows)
+        (touched,) = _touched(self.inside(box), np.array([[box.x, box.y]]), rows)
         return tuple(thing.name for thing, is_touched in zip(rows, touched, strict=True) if is_touched)
 
     def free(self, box: Standing, centers: NDArray[np.float64], others: Iterable[Standing]) -> Mask:
         """At which of the centres (K, 2) there is room for the box and the hand."""
         body = Space(0.0, 0.0, box.dx + 2 * GAP, box.dy + 2 * GAP, box.bottom)
-        return np.asarray(~_touched((body, *self.spaces(box)), centers, others).any(axis=1))
+        return np.asarray(~_touched((body, *self.around(box)), centers, others).any(axis=1))
 
     def is_free(self, box: Standing, others: Iterable[Standing]) -> bool:
         """Whether there is room for box and hand where the box stands."""
         return bool(self.free(box, np.array([[box.x, box.y]]), others)[0])
+
+
+def _beside(box: Standing, near: float, far: float, width: float, low: float) -> tuple[Space, Space]:
+    """Blocks on both sides of a box, from one distance from its face to another."""
+    middle = (min(box.dx, box.dy) + near + far) / 2
+    return _across(box, -middle, far - near, width, low), _across(box, middle, far - near, width, low)
+
+
+def _across(box: Standing, offset: float, along: float, across: float, low: float) -> Space:
+    """A block that lies across the long sides of a box, off its middle by some way."""
+    return Space(offset, 0.0, along, across, low) if box.is_along_y else Space(0.0, offset, across, along, low)
 
 
 def _touched(spaces: Iterable[Space], centers: NDArray[np.float64], others: Iterable[Standing]) -> Mask:

@@ -61,13 +61,6 @@ class Standing:
         """The same, standing on something of this height."""
         return replace(self, bottom=bottom, top=bottom + self.height)
 
-    def overlaps(self, other: Standing, gap: float = 0.0) -> bool:
-        """Whether the two are closer than a gap, seen from above."""
-        return (
-            abs(self.x - other.x) < (self.dx + other.dx) / 2 + gap
-            and abs(self.y - other.y) < (self.dy + other.dy) / 2 + gap
-        )
-
 
 Table = NDArray[np.float64]
 """(N, 5): x, y, dx, dy and top of several."""

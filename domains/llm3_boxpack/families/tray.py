@@ -36,11 +36,6 @@ class Tray:
         return self.high[0] - self.low[0], self.high[1] - self.low[1]
 
     @property
-    def area(self) -> float:
-        """Of its inside, in square millimetres."""
-        return self.size[0] * self.size[1]
-
-    @property
     def walls(self) -> tuple[Standing, ...]:
         """As things that are in the way."""
         (x, y), (dx, dy) = self.center, self.size

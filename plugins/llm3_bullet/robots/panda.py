@@ -33,12 +33,14 @@ def panda() -> RobotDescription:
         ),
         joint_limits=dict(zip(_JOINTS, zip(_LOW, _HIGH, strict=True), strict=True)),
         max_acceleration=dict(zip(_JOINTS, _ACCELERATION, strict=True)),
+        reach_from_above=(0.43, 0.77),
         may_touch=(("panda_link7", "panda_hand"),),
         mounted_links=("panda_link0",),
         source=(
             "Joint limits and accelerations: Franka Control Interface documentation, limits for the Franka Emika Robot "
             "(Panda), https://frankarobotics.github.io/docs/robot_specifications.html; the shipped URDF's limits are "
             "wider. Speeds: the shipped URDF's, which are the same as there. "
-            "Home: where libfranka's examples start. Gripper: measured on the shipped collision meshes."
+            "Home: where libfranka's examples start. Gripper: measured on the shipped collision meshes. "
+            "Reach: tried on a grid of places, heights up to 0.1 m and turns of the hand."
         ),
     )

@@ -24,7 +24,7 @@ def gripper_text(gripper: Gripper, kind: str = "box") -> str:
 
 
 def _of_fingers(gripper: ParallelGripper, kind: str) -> str:
-    one, room = _one(kind), gripper.finger_reach + OPENING_MARGIN
+    one, room = _one(kind), gripper.finger_reach + OPENING_MARGIN / 2
     return (
         f"The gripper takes {one} from above between two fingers, on two opposite side faces no more than "
         f"{widest(gripper):g} m apart: the closer pair, or for a square {kind} the pair along its "

@@ -1,9 +1,9 @@
 """The stand-in where the prompt tells how high the hand is: geometry in place of experience.
 
-It reckons with the numbers of the prompt, and with the reach and the gaps for which the families' problems are made,
-which a prompt does not tell: what is in the way goes aside, and boxes are packed by chance, again and again, each where
-it and the hand have room. So hardly any of its actions fail; but trays as full as those of the families are seldom
-filled by chance. What finds no room is left out, and the next reply tries anew.
+It reckons with the numbers of the prompt, and with the gaps for which the families' problems are made, which a prompt
+does not tell: what is in the way goes aside, and boxes are packed by chance, again and again, each where it and the
+hand have room. So hardly any of its actions fail; but trays as full as those of the families are seldom filled by
+chance. What finds no room is left out, and the next reply tries anew.
 """
 
 from __future__ import annotations

@@ -51,7 +51,8 @@ def _moves(
 ) -> Sequence[Sketch]:
     """The shortest way or, where towers are in one another's way again and again, all in step."""
     start = {name: _support(entity) for name, entity in blocks.items()}
-    usual = sequence({name: ELSEWHERE if name in restless else support for name, support in start.items()}, below)
+    moved = {name: ELSEWHERE for name in restless if start.get(name) not in blocks}
+    usual = sequence({**start, **moved}, below)
     together = in_step(start, below, {name: _size(entity)[2] for name, entity in blocks.items()})
     stuck = sum(lesson.crowded for lesson in lessons) >= STUBBORN
     last = lessons[-1] if lessons else None

@@ -41,8 +41,10 @@ class BoxpackEnv(TabletopEnv):
         basket = self._instance.basket
         floors = (basket.floor,)
         things = (thing.standing(support_height(floors, thing.footprint)) for thing in instance.things)
+        to_move = instance.to_move
+        to_reach = ("basket",) if to_move else ()
         areas = {"basket": basket.area}
-        super().__init__(Tabletop(workcell, furniture(basket), things, floors, areas, instance.to_move))
+        super().__init__(Tabletop(workcell, furniture(basket), things, floors, areas, to_move, to_reach))
 
     @property
     def task(self) -> str:

@@ -57,7 +57,8 @@ class KitchenEnv(TabletopEnv):
         high = surfaces(instance.places)
         things = (thing.standing(support_height(high, thing.footprint)) for thing in instance.things)
         areas = {place.name: place.area for place in instance.places}
-        super().__init__(Tabletop(workcell, furniture(instance.places), things, high, areas, instance.to_move))
+        fixed = furniture(instance.places)
+        super().__init__(Tabletop(workcell, fixed, things, high, areas, instance.to_move, instance.to_reach))
         self._in_hand = Manipulation(self.tabletop.sizes, (), workcell.gripper).in_hand
         marked = dict(marks(instance.places))
         self.marks = tuple(marked)

@@ -120,6 +120,13 @@ class KitchenInstance:
         """The names of the foods that do not start where all is done that they need."""
         return tuple(food.name for food in self.foods if not self._is_done_at_start(food))
 
+    @property
+    def to_reach(self) -> tuple[str, ...]:
+        """The names of the places that some food needs, and for which there is no other."""
+        needed = {kind for food in self.foods if not self._is_done_at_start(food) for kind in food.needs}
+        kinds = [place.kind for place in self.places]
+        return tuple(place.name for place in self.places if place.kind in needed and kinds.count(place.kind) == 1)
+
     def _is_done_at_start(self, food: FoodSpec) -> bool:
         place = self.place_of(food.footprint)
         return place is not None and food.needs == (place.kind,)

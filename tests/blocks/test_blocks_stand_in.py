@@ -8,7 +8,7 @@ from math import dist, hypot
 import numpy as np
 import pytest
 from feedback_traces import traces_of
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from llm3.parsing import parse_reply
@@ -87,8 +87,13 @@ actions = st.one_of(
 traces = traces_of(actions)
 
 
+ON_B = (Action("stack", ("a", "b")),)
+"""An action that, where it fails, makes the stand-in move b, which stands on another block."""
+
+
 @some
 @given(traces, seeds, st.sampled_from([CONTEXT, OTHER]))
+@example((feedback(1, ON_B, 0, None), feedback(2, ON_B, 0, None)), 0, OTHER)
 def test_whatever_the_trace_its_moves_lead_to_the_goal(trace, seed, context):
     below = {entity.name: entity.properties["stands on"] for entity in STATE}
     held = ""

@@ -219,6 +219,10 @@ def test_a_box_inside_of_the_arm_is_refused_when_the_world_is_made(make):
             problem(box("red_box", 0.5, 0.0), basket=BasketSpec((0.1, 0.0), (0.2, 0.2))),
             "the arm stands on basket: move it farther from the arm.",
         ),
+        (
+            problem(box("red_box", 0.5, 0.0), basket=BasketSpec((1.3, 0.0), (0.2, 0.2))),
+            "basket is out of the arm's reach: move it closer to the arm.",
+        ),
         (problem(box("red_box", 0.502, 0.0)), "basket_wall_front and red_box start in one another"),
     ],
 )

@@ -88,10 +88,11 @@ def test_an_area_where_the_arm_stands(cells, robot, angle):
 def test_an_area_of_which_no_point_is_within_reach(cells, robot, angle):
     direction = cos(angle), sin(angle)
     away, half_way = (Rectangle((x, 0.7), (0.2, 0.2), direction) for x in (1.0, 0.5))
-    assert refused(cells[robot], areas={"tray": half_way, "mat": away}) == (
+    areas = {"tray": half_way, "mat": away}
+    assert refused(cells[robot], areas=areas, to_reach=["tray", "mat"]) == (
         "mat is out of the arm's reach: move it closer to the arm."
     )
-    Tabletop(cells[robot], (table(),), (), areas={"tray": half_way})
+    Tabletop(cells[robot], (table(),), (), areas=areas, to_reach=["tray"])
 
 
 def test_a_box_that_has_to_be_moved_and_does_not_fit_the_gripper(cells):

@@ -242,6 +242,10 @@ def test_the_answers_do_not_depend_on_what_was_asked_before(make, env, start):
             "the arm stands on serving: move it farther from the arm.",
         ),
         (
+            replace(KITCHEN, places=(*PLACES[:4], replace(PLACES[4], center=(1.2, 1.2)))),
+            "serving is out of the arm's reach: move it closer to the arm.",
+        ),
+        (
             replace(
                 KITCHEN,
                 places=(replace(PLACES[0], size=(0.9, 0.66)), *PLACES[3:]),

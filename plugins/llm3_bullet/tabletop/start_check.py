@@ -26,6 +26,7 @@ def check_start(
     start: State,
     areas: Mapping[str, Rectangle],
     to_move: Iterable[str],
+    to_reach: Iterable[str],
 ) -> None:
     """See that a problem can begin, and does not ask for what this robot can certainly not do.
 
@@ -35,17 +36,20 @@ def check_start(
         start: The first state, with the arm at home.
         areas: Where boxes have to be put down, by name.
         to_move: The names of boxes without a move of which the goal cannot be reached.
+        to_reach: The names of areas without which it cannot.
 
     Raises:
         InstanceError: A box is called as a link of the robot is, or starts in another one, in the furniture, in the
-            arm or in the air; the arm stands on an area, or reaches no point of it; a box that has to be moved does
-            not fit the gripper, or is farther away than the arm is long.
+            arm or in the air; the arm stands on an area; a box that has to be moved does not fit the gripper, or is
+            farther away than the arm is long, as is an area without which the goal cannot be reached.
         InputError: The arm touches itself or the furniture.
     """
     _check_names(workcell, start)
     _check_boxes(manipulation.things(start.poses), start)
     _check_arm(workcell, manipulation.transit_scene(start), start)
     _check_areas(workcell, areas, start)
+    for name in to_reach:
+        _check_reach(workcell, name, areas[name])
     for name in to_move:
         _check_grasps(workcell, manipulation, start, name)
 
@@ -94,10 +98,12 @@ def _check_areas(workcell: Workcell, areas: Mapping[str, Rectangle], start: Stat
     for contact in workcell.checker.view(slabs).contacts(np.array(start.configuration)) if areas else ():
         if contact.object in areas:
             raise InstanceError(f"the arm stands on {contact.object}: move it farther from the arm.")
+
+
+def _check_reach(workcell: Workcell, name: str, area: Rectangle) -> None:
     disc = workcell.inverse.disc
-    for name, area in areas.items():
-        if dist(area.nearest(disc.center), disc.center) > disc.radius:
-            raise InstanceError(f"{name} is out of the arm's reach: move it closer to the arm.")
+    if dist(area.nearest(disc.center), disc.center) > disc.radius:
+        raise InstanceError(f"{name} is out of the arm's reach: move it closer to the arm.")
 
 
 def _slab(name: str, area: Rectangle) -> Box:

@@ -38,6 +38,7 @@ class Tabletop:
         surfaces: Iterable[Surface] = (),
         areas: Mapping[str, Rectangle] = FrozenDict(),
         to_move: Iterable[str] = (),
+        to_reach: Iterable[str] = (),
     ) -> None:
         """Set it up, unless something is wrong with how it begins.
 
@@ -48,10 +49,12 @@ class Tabletop:
             surfaces: Where boxes are put down higher than on the table.
             areas: Where boxes have to be put down, by name.
             to_move: The names of boxes without a move of which the goal cannot be reached.
+            to_reach: The names of areas without which it cannot.
 
         Raises:
             InstanceError: A box starts in another one, in the furniture, in the arm or in the air; the arm stands on
-                an area; a box that has to be moved does not fit the gripper, or is farther away than the arm is long.
+                an area; a box that has to be moved does not fit the gripper, or is farther away than the arm is long,
+                as is an area without which the goal cannot be reached.
             InputError: The arm touches itself or the furniture where it starts.
         """
         self.workcell, self._furniture, self._surfaces = workcell, tuple(furniture), tuple(surfaces)
@@ -61,7 +64,7 @@ class Tabletop:
         self.start = State({name: box.pose for name, box in start.items()}, tuple(workcell.model.home))
         """The boxes at their start, the arm at home."""
         self._manipulation = Manipulation(self.sizes, self._furniture, workcell.gripper)
-        check_start(workcell, self._manipulation, self.start, areas, to_move)
+        check_start(workcell, self._manipulation, self.start, areas, to_move, to_reach)
 
     @property
     def joints(self) -> tuple[Joint, ...]:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from itertools import takewhile
 from math import atan2, hypot, pi
 
 import numpy as np
 
-from llm3.types import Action, Context, FailureKind
+from llm3.types import Action, Context, FailureKind, Sketch
 from llm3_tabletop2d.actions import LARGEST_CARRIED, PICK, PLACE, PUSH
 from llm3_tabletop2d.lessons import Lesson, lessons_of
 from llm3_tabletop2d.spots import JITTER, aside, spot_in
@@ -30,12 +31,20 @@ def reply(context: Context, rng: np.random.Generator) -> str:
     """A reply in the format that the prompt asks for."""
     lessons = lessons_of(context)
     kept, reasoning = _kept(lessons)
+    if context.skeleton:
+        kept = _as_given(kept, context.skeleton)
     table = table_of(context.state)
     for action in kept:
         table = table.after(action)
     writer = _Writer(table, kept, lessons, rng)
     plan = writer.filled(context, kept) if context.skeleton else (*kept, *writer.rest())
     return json.dumps({"Reasoning": reasoning, "Full Plan": [str(action) for action in plan]})
+
+
+def _as_given(actions: tuple[Action, ...], skeleton: Sequence[Sketch]) -> tuple[Action, ...]:
+    """The first of them that are those of a given sequence."""
+    alike = ((a.name, a.objects) == (s.name, s.objects) for a, s in zip(actions, skeleton, strict=False))
+    return actions[: sum(1 for _ in takewhile(bool, alike))]
 
 
 def _kept(lessons: Sequence[Lesson]) -> tuple[tuple[Action, ...], str]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from feedback_traces import traces_of
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from plane_world import DOMAIN, box, disc, pick, place, problem, push
 
@@ -67,8 +67,12 @@ def test_whatever_the_trace_it_writes_a_plan_of_valid_actions_and_the_same_again
     assert plan(told(*trace), seed) == plan(told(*trace), seed)
 
 
+PICKS = (pick("red_disc", 0.0),) * 3
+
+
 @some
 @given(traces, seeds, st.sampled_from(DOMAIN.settings))
+@example((feedback(1, PICKS, 2, None),), 0, "open")
 def test_a_given_sequence_is_kept(trace, seed, setting):
     instance = DOMAIN.instance(setting, 0)
     context = replace(context_of(instance), trace=trace, skeleton=DOMAIN.skeleton(instance))

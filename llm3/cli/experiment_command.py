@@ -24,7 +24,6 @@ from llm3.experiments import (
     ExperimentWriter,
     MethodOutlook,
     RunLine,
-    continued,
     look_ahead,
     missing_jobs,
     read_experiment_folder,
@@ -33,6 +32,7 @@ from llm3.experiments import (
     shares,
     versions_of,
 )
+from llm3.experiments.continuation import continued
 from llm3.registry import Registry
 
 if TYPE_CHECKING:

@@ -1,7 +1,7 @@
 """Many runs from one description: read it, run it at any size, and keep a line for each run."""
 
 from llm3.experiments.budgets import Budgets
-from llm3.experiments.continuation import continued, setting_differences
+from llm3.experiments.continuation import setting_differences
 from llm3.experiments.experiment import Experiment, Job, Method, ProblemFamily, RunKey
 from llm3.experiments.folder import EXPERIMENT_FILE, ExperimentRecord, read_experiment_folder, record_folder
 from llm3.experiments.layout import MEASURES, Column, Group, Layout, Published
@@ -30,7 +30,6 @@ __all__ = [
     "RunKey",
     "RunLine",
     "Share",
-    "continued",
     "experiment_of",
     "look_ahead",
     "missing_jobs",

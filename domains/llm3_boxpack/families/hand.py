@@ -98,7 +98,7 @@ class Hand:
         return (*_beside(box, 0.0, reach, width, tips), _across(box, 0.0, along, across, palm))
 
     def inside(self, box: Standing) -> tuple[Space, ...]:
-        """Blocks inside of fingers and palm."""
+        """Blocks inside of fingers and palm, if they are the Panda's."""
         tips, palm = (box.bottom + height for height in self.heights(box.height))
         above, along, across = PALM_CORE
         fingers = [
